@@ -10,7 +10,7 @@ namespace scree
 {
 /** The names under which the values of an enum appear in parameter files and tables, in order. */
 template <typename Enum>
-using EnumNames = std::vector<std::pair<Enum, std::string> >;
+using EnumNames = std::vector<std::pair<Enum, std::string>>;
 
 /** The name of `value`; throws std::logic_error if the table lacks it. */
 template <typename Enum>

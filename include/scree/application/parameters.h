@@ -1,0 +1,50 @@
+#pragma once
+
+#include <scree/contact/contact_parameters.h>
+#include <scree/grid/background_grid.h>
+#include <scree/output/probes.h>
+#include <scree/parameters/file.h>
+#include <scree/solver/linear_solver.h>
+#include <scree/solver/newton.h>
+#include <scree/solver/step_control.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** Parameters of section Output. */
+template <int dim>
+struct OutputParameters
+{
+  unsigned int                      fields_every  = 1; //!< VTU of the bodies, 0: never
+  unsigned int                      contact_every = 1; //!< CSV and VTU of contact, 0: never
+  std::vector<ProbeParameters<dim>> probes;
+
+  void declare(ParameterSection &section);
+};
+
+/** Everything a run needs to know: the parameters of all modules. */
+template <int dim>
+struct Parameters
+{
+  std::string                               title;
+  unsigned int                              degree        = 1;
+  double                                    ghost_penalty = 0.1;
+  GridParameters<dim>                       grid;
+  std::map<std::string, MaterialParameters> materials;
+  std::vector<BodyParameters<dim>>          bodies;
+  ContactParameters                         contact;
+  TimeParameters                            time;
+  NewtonParameters                          newton;
+  LinearSolverParameters                    linear_solver;
+  OutputParameters<dim>                     output;
+
+  /** Lets every module visit its section; problems are collected in the file. */
+  void declare(ParameterFile &file);
+};
+
+/** The entry Dimension: 2 or 3. */
+unsigned int declare_dimension(ParameterFile &file);
+} // namespace scree

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <scree/application/parameters.h>
+#include <scree/base/log.h>
+#include <scree/mechanics/equilibrium.h>
+#include <scree/output/body_output.h>
+#include <scree/output/results.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/**
+ * A run: sets the bodies up on their grid, walks through the load steps, writes what happens.
+ * The members are the modules, the steps those of method.md section 3.
+ */
+template <int dim>
+class Simulation
+{
+public:
+  /**
+   * @param output_directory where results go; must exist
+   * @throws UserError if the set-up is impossible
+   */
+  Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
+             const MPI_Comm communicator);
+
+  /** All load steps. @throws UserError if a step cannot be solved. */
+  void run();
+
+  /** Reports what was set up and writes it for pictures; computes nothing. */
+  void check();
+
+private:
+  void         set_up();
+  void         report_set_up();
+  bool         solve_step(const double time);
+  NewtonResult solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
+  void         explain_failure(const NewtonResult &result);
+  void         write_results();
+
+  Parameters<dim>     parameters;
+  MPI_Comm            communicator;
+  Log                 log;
+  dealii::TimerOutput timer;
+  std::string         directory;
+
+  BackgroundGrid<dim>                 grid;
+  std::vector<Body<dim>>              bodies;
+  std::unique_ptr<LevelSetNodes<dim>> level_set_nodes;
+  std::unique_ptr<Fields<dim>>        fields;
+  std::unique_ptr<CutQuadrature<dim>> quadrature;
+  std::unique_ptr<ContactPoints<dim>> contact;
+  std::unique_ptr<Bulk<dim>>          bulk;
+  std::unique_ptr<BoundaryTerms<dim>> boundary_terms;
+  std::unique_ptr<Equilibrium<dim>>   equilibrium;
+  std::unique_ptr<LinearSolver>       linear_solver;
+  std::unique_ptr<Results<dim>>       results;
+  StepControl                         step_control;
+  State<dim>                          state;
+  StepRecord                          record; //!< of the step being solved
+};
+} // namespace scree

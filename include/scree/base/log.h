@@ -1,0 +1,34 @@
+#pragma once
+
+#include <fstream>
+#include <mpi.h>
+#include <string>
+
+namespace scree
+{
+/** Lines of text for the user: printed on the first process and kept in a file. */
+class Log
+{
+public:
+  /** @param file_name the file to write, empty: none */
+  Log(const MPI_Comm communicator, const std::string &file_name);
+
+  /** A line. */
+  void line(const std::string &text);
+
+  /** A progress bar that stays below the lines on a terminal; nothing elsewhere. */
+  void progress(const double fraction, const std::string &text);
+
+private:
+  void erase_bar();
+
+  bool          is_first, is_terminal, has_bar = false;
+  std::ofstream file;
+};
+
+/** A number in few characters: 4 significant digits. */
+std::string short_number(const double value);
+
+/** Seconds as "12 s", "3 min 20 s", "2 h 5 min". */
+std::string short_duration(const double seconds);
+} // namespace scree

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <scree/bodies/boundary_condition.h>
+#include <scree/geometry/shape.h>
+#include <scree/level_set/lattice.h>
+#include <scree/material/material.h>
+#include <scree/parameters/section.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/** Parameters of one named body. */
+template <int dim>
+struct BodyParameters
+{
+  std::string          name;
+  std::string          path; //!< section path, for messages
+  std::string          material;
+  ShapeParameters<dim> shape;
+  std::string          body_force = dim == 2 ? "0; 0" : "0; 0; 0";
+  /** Named boundary conditions with their section paths. */
+  std::vector<std::pair<std::string, BoundaryConditionParameters<dim>>> conditions;
+
+  void declare(ParameterSection &section);
+};
+
+/** Reads section Bodies: `set Names = ...` and one subsection per name. */
+template <int dim>
+std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &section,
+                                                const std::vector<std::string> &material_names);
+
+/**
+ * A deformable body: its level set (negative inside, nodal values on a lattice), its material and
+ * what acts on it. The geometry is the initial one.
+ */
+template <int dim>
+struct Body
+{
+  std::string                          name;
+  std::string                          path; //!< section path, for messages
+  Lattice<dim>                         level_set;
+  dealii::BoundingBox<dim>             box; //!< of the body, clipped by the background box [L]
+  std::shared_ptr<const Material<dim>> material;
+  Expression<dim>                      body_force; //!< force per volume
+  std::vector<BoundaryCondition<dim>>  conditions;
+};
+
+/**
+ * Builds the bodies: shape -> lattice, with `margin` [L] around the shape.
+ * @throws UserError if a body lies outside the background box or names an unknown material
+ */
+template <int dim>
+std::vector<Body<dim>>
+make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
+            const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
+            const LatticeFrame<dim> &frame, const double margin);
+
+/**
+ * Broad phase: the pairs (a < b) of bodies whose bounding boxes come closer than `reach` [L], by an
+ * r-tree (Boost.Geometry).
+ */
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>>
+candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach);
+} // namespace scree

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <scree/base/enum_names.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace scree
+{
+/** How two bodies resist each other. */
+enum class ContactLaw
+{
+  /** no interaction */
+  none,
+  /** pressure only */
+  frictionless,
+  /** Coulomb friction */
+  coulomb,
+  /** no sliding as long as there is pressure */
+  stick,
+  /** glued: resists opening and sliding */
+  tied
+};
+
+/** State of a contact point. */
+enum class ContactStatus : unsigned char
+{
+  open,
+  stick,
+  slip
+};
+
+extern const EnumNames<ContactLaw>    contact_law_names;
+extern const EnumNames<ContactStatus> contact_status_names;
+
+/** What a contact law needs to know at a point. */
+template <int dim>
+struct ContactKinematics
+{
+  double                 initial_gap; //!< g_0 [L], negative: overlap
+  dealii::Tensor<1, dim> normal;      //!< unit, from a to b
+  dealii::Tensor<1, dim> jump;        //!< [[u]] = u_b(x_b) - u_a(x_a) [L]
+  dealii::Tensor<1, dim> old_jump;    //!< [[u]] at the start of the step [L]
+  dealii::Tensor<1, dim> old_tau;     //!< tangential traction at the start of the step
+  double                 eps_n;       //!< normal penalty [force/area/L]
+  double                 eps_t;       //!< tangential penalty [force/area/L]
+  double                 closing_gap; //!< gaps up to this count as closed in the tangent [L]
+};
+
+/** Tractions of body a on body b and their derivative. */
+template <int dim>
+struct ContactResponse
+{
+  double                 pressure = 0.; //!< p, positive in compression
+  dealii::Tensor<1, dim> tau;           //!< tangential traction on b
+  dealii::Tensor<2, dim> tangent;       //!< -d(p n + tau)/d[[u]] [force/area/L]
+  ContactStatus          status = ContactStatus::open;
+
+  /** p n + tau, the traction on b. */
+  dealii::Tensor<1, dim> traction(const dealii::Tensor<1, dim> &normal) const
+  {
+    return pressure * normal + tau;
+  }
+};
+
+/**
+ * Penalty contact with Coulomb friction as perfect plasticity (method.md section 8; Kikuchi & Oden
+ * 1988): with g = g_0 + n.[[u]], p = eps_n <-g>, tau* = tau_n - eps_t P([[u]] - [[u]]_n), P = I - n
+ * n^T, stick if |tau*| <= mu p, else tau = mu p s, s = tau*/
+| tau * |.The tangent is consistent : *stick : eps_n n n ^ T + eps_t P,
+  *slip : eps_n n n ^ T + mu eps_n s n
+    ^ T
+        + (mu p / | tau * |) eps_t(P - s s ^ T)
+            .*Tied
+    : p                                 = -eps_n n.
+           [[u]] of either sign and tau = tau *.Gaps in[0, closing_gap] carry no traction but
+                                          * the tangent of stick
+    : a body that touches without load is held in the first iteration.
+                                          *
+                                          / template <int dim>
+                                          ContactResponse<dim> contact_response(
+                                            const ContactLaw law, const double friction_coefficient,
+                                            const ContactKinematics<dim> &kinematics);
+} // namespace scree

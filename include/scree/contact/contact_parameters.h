@@ -1,0 +1,39 @@
+#pragma once
+
+#include <scree/contact/contact_law.h>
+#include <scree/parameters/section.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** A contact law for the pairs of bodies that match two names or wildcards. */
+struct ContactPairParameters
+{
+  std::string              name;
+  std::vector<std::string> bodies               = {"*", "*"}; //!< two names; '*' matches any text
+  ContactLaw               law                  = ContactLaw::coulomb;
+  double                   friction_coefficient = std::numeric_limits<double>::quiet_NaN();
+  double                   normal_factor        = 10.; //!< c_n in eps_n = c_n E/h
+  double                   tangential_factor    = 10.; //!< c_t in eps_t = c_t E/h
+
+  void declare(ParameterSection &section);
+
+  /** Whether the law is meant for the two bodies, in either order. */
+  bool matches(const std::string &a, const std::string &b) const;
+};
+
+/** Parameters of section Contact: laws by name, the last that matches a pair counts. */
+struct ContactParameters
+{
+  std::vector<ContactPairParameters> laws;
+  double                             shift = 4.; //!< largest phi on the contact surface, in h
+
+  void declare(ParameterSection &section, const std::vector<std::string> &body_names);
+
+  /** The law of a pair; frictionless contact with default penalties if none matches. */
+  ContactPairParameters law_of(const std::string &a, const std::string &b) const;
+};
+} // namespace scree

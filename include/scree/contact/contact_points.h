@@ -1,0 +1,130 @@
+#pragma once
+
+#include <scree/contact/contact_parameters.h>
+#include <scree/discretization/cut_quadrature.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** Two bodies that may touch, a < b, and the law between them. */
+struct ContactPair
+{
+  unsigned int          a, b;
+  std::string           name; //!< "block-cylinder"
+  ContactPairParameters law;
+};
+
+/** What a contact point remembers from step to step. */
+template <int dim>
+struct ContactHistory
+{
+  std::vector<dealii::Tensor<1, dim>> tau;  //!< tangential traction on b
+  std::vector<dealii::Tensor<1, dim>> jump; //!< [[u]]
+};
+
+/** A quadrature point of the intermediate surface between two bodies. */
+template <int dim>
+struct ContactPoint
+{
+  unsigned int           pair;
+  dealii::Point<dim>     position;
+  dealii::Tensor<1, dim> normal;      //!< from a to b
+  double                 weight;      //!< length or area
+  double                 initial_gap; //!< g_0 = phi_a + phi_b of degree k
+  double                 cell_size;   //!< h of the penalties
+};
+
+/**
+ * The unbiased contact surface S = {phi_a = phi_b <= shift} of every candidate pair, cut from the
+ * background cells, as a flat list of points with the stencil of their displacement jump
+ * [[u]] = sum_i w_i u(node_i) (method.md section 8). A process holds the points of its cells.
+ *
+ * Consecutive points with the same nodes form a group, so that a group is one dense block of the
+ * matrix.
+ */
+template <int dim>
+class ContactPoints
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /** @param shift bound on phi on the contact surface [L] */
+  ContactPoints(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+                const double shift);
+
+  const std::vector<ContactPoint<dim>> &points() const
+  {
+    return contact_points;
+  }
+
+  const std::vector<ContactPair> &pairs() const
+  {
+    return contact_pairs;
+  }
+
+  /** History of an unloaded surface. */
+  ContactHistory<dim> initial_history() const;
+
+  /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
+  void evaluate(const Vector &u, const ContactHistory<dim> &history);
+
+  /** The history to carry on: tractions and jumps of the last evaluation. */
+  ContactHistory<dim> current_history() const;
+
+  /** Responses of the last evaluation. */
+  const std::vector<ContactResponse<dim>> &responses() const
+  {
+    return contact_responses;
+  }
+
+  /** Jumps of the last evaluation. */
+  const std::vector<dealii::Tensor<1, dim>> &jumps() const
+  {
+    return contact_jumps;
+  }
+
+  /** Gap g_0 + n.[[u]] of the last evaluation. */
+  double gap(const unsigned int point) const
+  {
+    return contact_points[point].initial_gap + contact_points[point].normal * contact_jumps[point];
+  }
+
+  /** Penalties eps_n, eps_t of a point [force/area/L]. */
+  double eps_n(const unsigned int point) const;
+  double eps_t(const unsigned int point) const;
+
+  /** Adds -R_contact(v) = int (p n + tau).[[v]] of the last evaluation. */
+  void add_to_residual(Vector &residual) const;
+
+  /** Adds the derivative of R_contact of the last evaluation. */
+  void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  /** The nodes of each group: what couples in the matrix. */
+  std::vector<std::vector<DofIndex>> couplings() const;
+
+private:
+  void find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                   const std::vector<Body<dim>> &bodies, const double shift);
+  void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+
+  struct Group
+  {
+    unsigned int first_point, n_points, first_node, n_nodes, first_weight;
+  };
+
+  std::vector<ContactPair>            contact_pairs;
+  std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
+  std::vector<ContactPoint<dim>>      contact_points;
+  std::vector<Group>                  groups;
+  std::vector<DofIndex>               group_nodes;
+  std::vector<double>                 stencil_weights; //!< per point, the nodes of its group
+  std::vector<dealii::Tensor<1, dim>> contact_jumps;
+  std::vector<ContactResponse<dim>>   contact_responses;
+};
+} // namespace scree

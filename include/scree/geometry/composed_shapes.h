@@ -1,0 +1,71 @@
+#pragma once
+
+#include <scree/base/expression.h>
+#include <scree/geometry/shape.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace scree
+{
+/** Where a formula of x, y (and z) is negative: max() intersects, min() unites. Without bounds. */
+template <int dim>
+class ExpressionShape : public Shape<dim>
+{
+public:
+  /** `distance` tells that the formula is a signed distance. */
+  ExpressionShape(const Expression<dim> &expression, bool distance);
+
+  double signed_distance(const dealii::Point<dim> &x) const override;
+
+  bool is_distance() const override;
+
+  dealii::BoundingBox<dim> bounding_box() const override;
+
+private:
+  Expression<dim> expression;
+  bool            distance;
+};
+
+/** A shape moved by `x -> centre + R (x - centre) + translation`. */
+template <int dim>
+class MovedShape : public Shape<dim>
+{
+public:
+  MovedShape(ShapePointer<dim> shape, const dealii::Tensor<2, dim> &rotation,
+             const dealii::Point<dim> &centre, const dealii::Tensor<1, dim> &translation);
+
+  double signed_distance(const dealii::Point<dim> &x) const override;
+
+  bool is_distance() const override;
+
+  dealii::BoundingBox<dim> bounding_box() const override;
+
+private:
+  ShapePointer<dim>      shape;
+  dealii::Tensor<2, dim> rotation;
+  dealii::Point<dim>     centre;
+  dealii::Tensor<1, dim> translation;
+};
+
+/**
+ * The union min(phi_i), the intersection max(phi_i) or the difference max(phi_1, -phi_2, ...) of
+ * shapes: not a distance, but one near the smooth parts of the boundary if the parts are distances.
+ */
+template <int dim>
+class CombinedShape : public Shape<dim>
+{
+public:
+  /** `type` is ShapeType::union_of, intersection or difference; `parts` is not empty. */
+  CombinedShape(ShapeType type, std::vector<ShapePointer<dim>> parts);
+
+  double signed_distance(const dealii::Point<dim> &x) const override;
+
+  bool is_distance() const override;
+
+  dealii::BoundingBox<dim> bounding_box() const override;
+
+private:
+  ShapeType                      type;
+  std::vector<ShapePointer<dim>> parts;
+};
+} // namespace scree

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <scree/bodies/body.h>
+#include <scree/parameters/section.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/distributed/tria.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/** How the background grid is refined. */
+enum class GridRefinement
+{
+  /** every cell at the finest level */
+  uniform,
+  /** finest where bodies may touch, coarser with the distance from there */
+  contact
+};
+
+/** Parameters of section Grid. */
+template <int dim>
+struct GridParameters
+{
+  dealii::Point<dim>        lower;
+  dealii::Point<dim>        upper;
+  std::vector<unsigned int> cells; //!< per direction, at level 0
+  unsigned int              finest_level    = 4;
+  unsigned int              coarsest_level  = 0;
+  GridRefinement            refinement      = GridRefinement::uniform;
+  double                    band            = 3.;  //!< finest cells around contact, in h
+  double                    grading         = 0.5; //!< growth of the cell size per distance
+  std::string               cell_size_limit = "";  //!< expression of position [L]
+
+  void declare(ParameterSection &section);
+
+  /** Edge of a cell at `level` [L]. */
+  double cell_size(const unsigned int level) const
+  {
+    return (upper[0] - lower[0]) / cells[0] / (1u << level);
+  }
+};
+
+/** One active cell, owned or ghost, of this process: an axis-aligned cube. */
+template <int dim>
+struct GridCell
+{
+  dealii::Point<dim>                                        lower; //!< lower corner [L]
+  double                                                    size;  //!< edge [L]
+  std::uint64_t                                             key;   //!< Morton key of the corner
+  typename dealii::Triangulation<dim>::active_cell_iterator iterator;
+};
+
+/**
+ * The p4est background grid: a box of cubes, 2:1 balanced, with a flat list of this process's cells
+ * and a replicated map of all active cells, sorted along the Morton curve, that finds the cell and
+ * the process of any point (method.md section 5, far cells).
+ */
+template <int dim>
+class BackgroundGrid
+{
+public:
+  BackgroundGrid(const GridParameters<dim> &parameters, const MPI_Comm communicator);
+
+  /**
+   * Refines: a cell at distance m from where two bodies of `pairs` may touch keeps the size
+   * h + grading * max(0, m - band h), with m = max(phi_a, phi_b); the expression of position limits
+   * it further. Uniform: all cells to the finest level.
+   */
+  void refine(const std::vector<Body<dim>>                             &bodies,
+              const std::vector<std::pair<unsigned int, unsigned int>> &pairs);
+
+  /** Owned cells first, then ghosts. */
+  const std::vector<GridCell<dim>> &cells() const
+  {
+    return local_cells;
+  }
+
+  unsigned int n_owned_cells() const
+  {
+    return n_owned;
+  }
+
+  /** The active cell that contains a point, anywhere in the box. */
+  struct Location
+  {
+    unsigned int rank;       //!< the process that owns the cell
+    int          local_cell; //!< its index in cells(), -1 if neither owned nor ghost here
+  };
+
+  /** Where `point` lies; points outside the box count as the nearest inside. */
+  Location locate(const dealii::Point<dim> &point) const;
+
+  /** Index in cells() of an active cell iterator of this process. */
+  int local_index(const typename dealii::CellAccessor<dim> &cell) const
+  {
+    return local_of_active[cell.active_cell_index()];
+  }
+
+  /** Edge of the finest cells [L]. */
+  double finest_size() const
+  {
+    return parameters.cell_size(parameters.finest_level);
+  }
+
+  const dealii::parallel::distributed::Triangulation<dim> &triangulation() const
+  {
+    return tria;
+  }
+
+  const GridParameters<dim> &grid_parameters() const
+  {
+    return parameters;
+  }
+
+  dealii::BoundingBox<dim> box() const
+  {
+    return dealii::BoundingBox<dim>({parameters.lower, parameters.upper});
+  }
+
+  MPI_Comm communicator() const
+  {
+    return tria.get_communicator();
+  }
+
+private:
+  void          list_cells();
+  std::uint64_t key_of(const dealii::Point<dim> &point) const;
+
+  GridParameters<dim>                               parameters;
+  dealii::parallel::distributed::Triangulation<dim> tria;
+  std::vector<GridCell<dim>>                        local_cells;
+  std::vector<int>                                  local_of_active;
+  unsigned int                                      n_owned = 0;
+
+  /** All active cells of all processes, sorted by key. */
+  struct MapEntry
+  {
+    std::uint64_t key;
+    unsigned int  rank;
+    int           local_cell;
+  };
+  std::vector<MapEntry> map;
+};
+} // namespace scree

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/**
+ * Where the lattices of all bodies live: nodes at `origin + spacing * integer vector`. With the
+ * corner of the background grid as origin and spacing h/k they contain the support points of
+ * FE_Q(k) on every background cell.
+ */
+template <int dim>
+struct LatticeFrame
+{
+  dealii::Point<dim>       origin;  // node (0, ..., 0)
+  double                   spacing; // length
+  dealii::BoundingBox<dim> box;     // the background box, which clips the lattices
+};
+
+/** Value and derivatives of a level set at a point. */
+template <int dim>
+struct LevelSetExpansion
+{
+  double                          value;    // length, if the level set is a distance
+  dealii::Tensor<1, dim>          gradient; // no dimension
+  dealii::SymmetricTensor<2, dim> hessian;  // 1/length
+};
+
+/**
+ * A dense uniform Cartesian lattice of nodal values, x fastest, with Lagrange interpolation.
+ *
+ * Degrees 1 and 2 interpolate in cells of k x k spacings whose corners are multiples of k in the
+ * global numbering of the frame: the FE_Q(k) interpolant on the finest background cells if
+ * spacing = h/k. Degree 3 interpolates through the 4 nodes per direction centred on the spacing
+ * that contains the point (continuous, gradient jumps of third order).
+ *
+ * Outside the box of the lattice every evaluation returns the value at the nearest point of the
+ * box plus the distance to it, so that the level set stays positive far away.
+ */
+template <int dim>
+class Lattice
+{
+public:
+  /** A node, in the global numbering of the frame. */
+  using Index = std::array<int, dim>;
+
+  /**
+   * Nodes `lower` ... `lower + n_nodes - 1`, values NaN. At least 4 nodes per direction; for
+   * degree 2 both `lower` and `n_nodes - 1` should be even.
+   */
+  Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes);
+
+  const LatticeFrame<dim> &frame() const;
+
+  double spacing() const;
+
+  /** The first node and the number of nodes per direction. */
+  const Index &lower() const;
+
+  const Index &n_nodes() const;
+
+  /** The box spanned by the nodes. */
+  const dealii::BoundingBox<dim> &box() const;
+
+  /** Position of a node, which need not belong to the lattice. */
+  dealii::Point<dim> node(const Index &index) const;
+
+  bool contains(const Index &index) const;
+
+  /** Position of a node in values(), and back. */
+  std::size_t offset(const Index &index) const;
+
+  Index index(std::size_t offset) const;
+
+  double &operator()(const Index &index);
+
+  double operator()(const Index &index) const;
+
+  std::vector<double> &values();
+
+  const std::vector<double> &values() const;
+
+  /** The value of the node at `x`, which must be a node of the frame (rounded to the nearest). */
+  double nodal_value(const dealii::Point<dim> &x) const;
+
+  /** The interpolant of degree 1, 2 or 3. */
+  double value(const dealii::Point<dim> &x, unsigned int degree) const;
+
+  std::pair<double, dealii::Tensor<1, dim>> value_and_gradient(const dealii::Point<dim> &x,
+                                                               unsigned int degree) const;
+
+  LevelSetExpansion<dim> expansion(const dealii::Point<dim> &x, unsigned int degree) const;
+
+private:
+  LatticeFrame<dim>        lattice_frame;
+  Index                    lower_node;
+  Index                    node_count;
+  dealii::BoundingBox<dim> node_box;
+  std::vector<double>      node_values;
+};
+
+template <int dim>
+inline bool
+Lattice<dim>::contains(const Index &index) const
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (index[d] < lower_node[d] || index[d] >= lower_node[d] + node_count[d])
+      return false;
+  return true;
+}
+
+template <int dim>
+inline std::size_t
+Lattice<dim>::offset(const Index &index) const
+{
+  Assert(contains(index), dealii::ExcMessage("The node is outside the lattice."));
+  std::size_t result = index[dim - 1] - lower_node[dim - 1];
+  for (int d = dim - 2; d >= 0; --d)
+    result = result * node_count[d] + (index[d] - lower_node[d]);
+  return result;
+}
+
+template <int dim>
+inline double &
+Lattice<dim>::operator()(const Index &index)
+{
+  return node_values[offset(index)];
+}
+
+template <int dim>
+inline double
+Lattice<dim>::operator()(const Index &index) const
+{
+  return node_values[offset(index)];
+}
+} // namespace scree

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/strong_supports.h>
+#include <scree/state/state.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** Energies at a state and the work between states [force L]. */
+struct Energies
+{
+  double strain        = 0.;
+  double ghost_penalty = 0.; //!< stored in the ghost penalty
+  double boundary      = 0.; //!< stored in springs, Nitsche and penalty terms
+  double contact       = 0.; //!< stored in the contact penalties
+  double dissipation   = 0.; //!< by friction, since the start
+  double external_work = 0.; //!< by the trapezoidal rule, since the start
+
+  /** external work minus all that was stored or dissipated */
+  double balance_error() const
+  {
+    return external_work - strain - ghost_penalty - boundary - contact - dissipation;
+  }
+};
+
+/** How a body is held before contact: rigid motions that nothing but contact resists. */
+struct FreeMotion
+{
+  unsigned int body;
+  unsigned int n_free; //!< number of free rigid motions
+};
+
+/**
+ * The discrete equilibrium r(u) = f(t) - A u - R_contact(u) = 0 of all bodies on a fixed geometry,
+ * and its tangent K = A + dR_contact/du. A (bulk, ghost penalty, Nitsche, springs, multipliers) is
+ * linear and assembled once; prescribed unknowns are kept in u and eliminated from K, so that A
+ * also gives their reactions (method.md sections 3, 7, 8).
+ */
+template <int dim>
+class Equilibrium
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
+              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
+
+  /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
+  void set_time(const double time, Vector &u);
+
+  /** r(u) with the contact history of the start of the step; zero on prescribed and hanging rows.
+   */
+  void residual(const Vector &u, const ContactHistory<dim> &history, Vector &r);
+
+  /** K at the u of the last residual(), prescribed rows and columns eliminated. */
+  const Matrix &tangent();
+
+  /** Whether K is symmetric positive definite at the u of the last residual(). */
+  bool is_symmetric() const;
+
+  /** Norm of the forces in balance at the last residual(), for relative tolerances. */
+  double force_scale() const;
+
+  /** Rigid motions of each body, for the near null space. */
+  std::vector<Vector> rigid_motions() const;
+
+  /** Bodies that supports alone do not hold. */
+  const std::vector<FreeMotion> &free_bodies() const
+  {
+    return free_motions;
+  }
+
+  /**
+   * Free bodies that the contact of the last residual() does not hold either: with their unresisted
+   * motions there is no equilibrium under a further load.
+   */
+  std::vector<unsigned int> bodies_not_held() const;
+
+  /** u with ghost values and hanging nodes, to evaluate fields. */
+  Vector with_ghosts(const Vector &u) const;
+
+  /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
+  std::vector<Resultant<dim>> resultants(const Vector &u) const;
+
+  /** "body.condition", integrals first, then strong ones. */
+  std::vector<std::string> condition_names() const;
+
+  /** Takes `u` as the accepted state of a step: adds its work and dissipation. */
+  void accept(const Vector &u, const ContactHistory<dim> &old_history);
+
+  /** Energies of the accepted state. */
+  const Energies &energies() const
+  {
+    return current_energies;
+  }
+
+  const StrongSupports<dim> &strong_supports() const
+  {
+    return supports;
+  }
+
+private:
+  void   set_up_matrices();
+  void   find_free_bodies();
+  void   eliminate_prescribed(Matrix &matrix) const;
+  void   reactions(Vector &result) const;
+  double work_of_displacements(const Vector &ghosted);
+
+  const Fields<dim>            &fields;
+  const std::vector<Body<dim>> &bodies;
+  Bulk<dim>                    &bulk;
+  const BoundaryTerms<dim>     &boundary_terms;
+  ContactPoints<dim>           &contact;
+  StrongSupports<dim>           supports;
+
+  Matrix                  stiffness;       //!< A
+  Matrix                  newton_matrix;   //!< K
+  Vector                  loads;           //!< f
+  Vector                  dead_loads;      //!< tractions, pressures and body forces in f
+  Vector                  internal_forces; //!< A u of the last residual()
+  Vector                  contact_forces;  //!< -R_contact of the last residual()
+  Vector                  artificial_mass; //!< added to the diagonal for free bodies
+  Vector                  ghosted;         //!< u of the last residual() with ghosts
+  dealii::IndexSet        ghosted_dofs;
+  std::vector<FreeMotion> free_motions;
+  double                  time = 0.;
+
+  // The accepted state, for the trapezoidal rule.
+  Energies current_energies;
+  Vector   accepted_u, accepted_dead_loads, accepted_reactions;
+  double   accepted_time = 0.;
+  std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions; //!< of Nitsche regions
+};
+} // namespace scree

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <scree/bodies/body.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+namespace scree
+{
+/**
+ * The infinitesimal rigid motions of a body about the centre of its box, rotations scaled by its
+ * size so that all have the dimension of a translation, and a measure of what resists them.
+ */
+template <int dim>
+class RigidMotions
+{
+public:
+  static constexpr unsigned int n_motions = dim == 2 ? 3 : 6;
+  /** Sum of m(x) m(x)^T over all that resists. */
+  using Resistance = dealii::FullMatrix<double>;
+
+  explicit RigidMotions(const Body<dim> &body)
+      : centre(body.box.center())
+      , size(0.)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      size = std::max(size, 0.5 * body.box.side_length(d));
+  }
+
+  /** Half the largest edge of the body's box [L]. */
+  double length() const
+  {
+    return size;
+  }
+
+  /** Displacement of motion `m` at a position: translations, then rotations. */
+  dealii::Tensor<1, dim> motion(const unsigned int m, const dealii::Point<dim> &position) const
+  {
+    dealii::Tensor<1, dim> result;
+    if (m < dim)
+      {
+        result[m] = 1.;
+        return result;
+      }
+    const dealii::Tensor<1, dim> arm = (position - centre) / size;
+    // rotation in the plane (i, j)
+    const unsigned int i = dim == 2 ? 0 : (m - dim + 1) % 3, j = dim == 2 ? 1 : (m - dim + 2) % 3;
+    result[i] = -arm[j];
+    result[j] = arm[i];
+    return result;
+  }
+
+  Resistance no_resistance() const
+  {
+    return Resistance(n_motions, n_motions);
+  }
+
+  /** Something resists the motion of `position` along `direction`. */
+  void add_resistance(const dealii::Point<dim> &position, const dealii::Tensor<1, dim> &direction,
+                      const double weight, Resistance &resistance) const
+  {
+    for (unsigned int m = 0; m < n_motions; ++m)
+      for (unsigned int n = 0; n < n_motions; ++n)
+        resistance(m, n)
+          += weight * (motion(m, position) * direction) * (motion(n, position) * direction);
+  }
+
+  void add_resistance(const dealii::Point<dim> &position, const unsigned int component,
+                      const double weight, Resistance &resistance) const
+  {
+    dealii::Tensor<1, dim> direction;
+    direction[component] = 1.;
+    add_resistance(position, direction, weight, resistance);
+  }
+
+  /** The mean rotation (2D) is prescribed. */
+  void add_rotation_resistance(const double weight, Resistance &resistance) const
+  {
+    resistance(n_motions - 1, n_motions - 1) += weight;
+  }
+
+  /** How many independent motions nothing resists (collective). */
+  unsigned int n_free(const Resistance &local, const MPI_Comm communicator) const
+  {
+    dealii::LAPACKFullMatrix<double> total(n_motions, n_motions);
+    double                           trace = 0.;
+    for (unsigned int m = 0; m < n_motions; ++m)
+      for (unsigned int n = 0; n < n_motions; ++n)
+        {
+          total(m, n) = dealii::Utilities::MPI::sum(local(m, n), communicator);
+          if (m == n)
+            trace += total(m, n);
+        }
+    if (trace == 0.)
+      return n_motions;
+    dealii::FullMatrix<double> eigenvectors;
+    dealii::Vector<double>     eigenvalues;
+    total.compute_eigenvalues_symmetric(-trace, 1e-6 * trace, 0., eigenvalues, eigenvectors);
+    return eigenvalues.size();
+  }
+
+private:
+  dealii::Point<dim> centre;
+  double             size;
+};
+} // namespace scree

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <scree/mechanics/boundary_terms.h>
+
+#include <vector>
+
+namespace scree
+{
+/** An owned unknown whose value is prescribed. */
+template <int dim>
+struct PrescribedUnknown
+{
+  DofIndex           index;
+  unsigned int       component;
+  unsigned int       support; //!< index in StrongSupports::conditions()
+  unsigned int       value;   //!< which value of the condition
+  dealii::Point<dim> position;
+};
+
+/**
+ * Displacements imposed on unknowns: of the nodes on a face of the background box, and of single
+ * vertices (method.md section 5, box faces and supports).
+ */
+template <int dim>
+class StrongSupports
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /** @throws UserError if a condition selects nothing or two conditions contradict each other */
+  StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+
+  /** Body and condition of each support. */
+  const std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> &conditions() const
+  {
+    return supports;
+  }
+
+  const std::vector<PrescribedUnknown<dim>> &unknowns() const
+  {
+    return prescribed;
+  }
+
+  /** Sets the prescribed values of time `time` in u. */
+  void set(Vector &u, const double time) const;
+
+  /** Zeros the prescribed entries. */
+  void set_zero(Vector &r) const;
+
+  /** Sum of the entries of `forces` per condition, with moments, over all processes. */
+  std::vector<Resultant<dim>> resultants(const Vector &forces) const;
+
+private:
+  void add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                   const unsigned int support);
+  bool is_prescribed_at(const BoundaryCondition<dim> &condition, const GridCell<dim> &cell,
+                        const dealii::Point<dim> &unit_node,
+                        const dealii::Point<dim> &position) const;
+
+  MPI_Comm                                                             communicator;
+  std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> supports;
+  std::vector<PrescribedUnknown<dim>>                                  prescribed;
+};
+} // namespace scree

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <scree/mechanics/equilibrium.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/**
+ * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
+ * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
+ * displacement, stress, von Mises and principal stresses, undeformed (ParaView: Warp By Vector).
+ */
+template <int dim>
+class BodyOutput
+{
+public:
+  BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+             const std::vector<Body<dim>> &bodies);
+
+  /**
+   * Writes DIR/bodies_NNNN.vtu or .pvtu and returns the name to put into a PVD record. `u` is
+   * ghosted.
+   */
+  std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
+                    const std::string &directory, const unsigned int number) const;
+
+private:
+  /** A piece of a cell: a whole cell, or a simplex; vertices in unit coordinates. */
+  struct Piece
+  {
+    unsigned int                    active_cell;
+    std::vector<dealii::Point<dim>> vertices;
+  };
+  void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
+
+  const Fields<dim> &fields;
+  std::vector<Piece> pieces;
+};
+
+/** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
+template <int dim>
+double von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz);
+} // namespace scree

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <scree/contact/contact_points.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** What happens between two bodies, summed over their contact surface and all processes. */
+template <int dim>
+struct ContactSummary
+{
+  dealii::Tensor<1, dim> force;  //!< on body b
+  dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
+  double                 minimum_gap     = 0.; //!< smallest gap, negative: penetration [L]
+  double                 max_penetration = 0.; //!< largest penetration [L]
+  double                 open = 0., stick = 0., slip = 0.; //!< length or area by status
+};
+
+/** The summary of every pair after the last evaluation. */
+template <int dim>
+std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &contact,
+                                                   const MPI_Comm            communicator);
+
+/**
+ * Writes DIR/contact_NNNN.csv with all contact points, sorted by pair and position: pair, position,
+ * normal, weight, gap, pressure p, tangential traction, jump [[u]], status (0 open, 1 stick, 2
+ * slip).
+ */
+template <int dim>
+void write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+                       const std::string &directory, const unsigned int number);
+
+/** Writes the same as points to DIR/contact_NNNN.vtu or .pvtu; returns the name for a PVD record.
+ */
+template <int dim>
+std::string write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+                              const std::string &directory, const unsigned int number);
+} // namespace scree

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <scree/mechanics/equilibrium.h>
+#include <scree/parameters/section.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/** A point, or points along a line, of a body where fields are tabulated. */
+template <int dim>
+struct ProbeParameters
+{
+  std::string        name;
+  std::string        body;
+  dealii::Point<dim> start;        //!< the point, or the first one of a line [L]
+  dealii::Point<dim> end;          //!< of a line [L]
+  unsigned int       n_points = 1; //!< 1: a point
+
+  void declare(ParameterSection &section);
+};
+
+/** Columns of a table of samples: position, displacement, stress, von Mises. */
+template <int dim>
+std::vector<std::string> sample_columns();
+
+/**
+ * Samples of a probe in initial coordinates; `u` ghosted. Same rows on all processes.
+ * @throws UserError if the body has no cell at a point
+ */
+template <int dim>
+std::vector<std::vector<double>> sample(const ProbeParameters<dim> &probe, const unsigned int body,
+                                        const Fields<dim> &fields, const Bulk<dim> &bulk,
+                                        const dealii::TrilinosWrappers::MPI::Vector &u);
+} // namespace scree

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <scree/output/body_output.h>
+#include <scree/output/contact_output.h>
+#include <scree/output/csv_table.h>
+#include <scree/output/probes.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/** How a load step was solved, for the history and the log. */
+struct StepRecord
+{
+  unsigned int step              = 0;
+  double       time              = 0.;
+  unsigned int newton_iterations = 0; //!< of the accepted attempt
+  unsigned int attempts          = 1; //!< 1 + number of cuts before
+  unsigned int linear_iterations = 0;
+  double       residual          = 0.; //!< |r| at the end
+};
+
+/**
+ * The files of a run: history.csv with a row per load step, VTU and CSV files of bodies and contact
+ * with PVD records, tables of probes and lines. All functions are collective.
+ */
+template <int dim>
+class Results
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  Results(const std::string &directory, const Fields<dim> &fields,
+          const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
+          const std::vector<ProbeParameters<dim>> &probes);
+
+  /** Adds the row of an accepted state to history.csv. */
+  void write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                     const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+
+  /** Body VTU and lines. */
+  void write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+
+  /** Contact CSV and VTU. */
+  void write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
+
+  /** Rows of the probes in probes.csv. */
+  void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+
+private:
+  void         open_history(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact);
+  void         write_pvd(const std::string                                 &name,
+                         const std::vector<std::pair<double, std::string>> &records) const;
+  unsigned int body_index(const std::string &name) const;
+
+  std::string                                 directory;
+  const Fields<dim>                          &fields;
+  const std::vector<Body<dim>>               &bodies;
+  std::vector<ProbeParameters<dim>>           probes;
+  BodyOutput<dim>                             body_output;
+  bool                                        is_first; //!< this process writes the tables
+  std::unique_ptr<CsvTable>                   history, probe_table;
+  std::vector<std::pair<double, std::string>> body_records, contact_records;
+};
+} // namespace scree

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <scree/base/enum_names.h>
+#include <scree/parameters/section.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** A linear system that could not be solved: singular, not finite, or no convergence. */
+class LinearSolverFailure : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** How to solve: by size, or as told. */
+enum class LinearSolverType
+{
+  automatic,
+  direct,
+  iterative
+};
+
+/** The direct solver: by size, or as told. */
+enum class DirectPackage
+{
+  automatic,
+  mumps,
+  klu
+};
+
+/** The Krylov method: by the symmetry of the matrix, or as told. */
+enum class KrylovMethod
+{
+  automatic,
+  cg,
+  gmres
+};
+
+/** What a parameter file says about the linear solver. */
+struct LinearSolverParameters
+{
+  LinearSolverType type = LinearSolverType::automatic;
+
+  /** Unknowns up to which `automatic` solves directly in two and in three dimensions. */
+  unsigned int direct_up_to_2d = 300000;
+  unsigned int direct_up_to_3d = 60000;
+
+  DirectPackage direct_package = DirectPackage::automatic;
+
+  KrylovMethod krylov_method = KrylovMethod::automatic;
+
+  /** The iteration ends at |b - A x|_2 <= tolerance |b|_2; 0 < tolerance < 1. */
+  double tolerance = 1e-10;
+
+  unsigned int max_iterations = 1000;
+
+  /** Sweeps of the Chebyshev smoother, before and after each coarse correction. */
+  unsigned int amg_smoother_sweeps = 2;
+
+  /** Couplings below this (relative to the diagonals) are dropped in the aggregation; >= 0. */
+  double amg_aggregation_threshold = 0;
+
+  /** Reads the entries of the section and records what is not allowed. */
+  void declare(const ParameterSection &section);
+};
+
+/** How a system was solved. */
+struct LinearSolveResult
+{
+  /** "KLU", "MUMPS", "CG+AMG" or "GMRES+AMG". */
+  std::string method;
+
+  /** Krylov iterations, 0 for a direct solver. */
+  unsigned int iterations = 0;
+
+  /** |b - A x|_2 / |b|_2, computed from the solution; 0 if b = 0. */
+  double relative_residual = 0;
+
+  /** Wall time on this process. */
+  double seconds = 0;
+};
+
+/**
+ * Solves A x = b, on any number of processes, directly (Amesos with KLU or MUMPS) or by CG or
+ * GMRES with smoothed aggregation (ML).
+ *
+ * `automatic` takes a direct solver up to a size that depends on the dimension, and beyond it CG
+ * for symmetric and GMRES for other matrices; if that does not converge, the direct one. Among the
+ * direct ones KLU takes small matrices on one process, MUMPS all others.
+ *
+ * A direct solver keeps a copy of the matrix and its symbolic factorisation; the latter is used
+ * again as long as the matrices come with the same graph object, that is, until the matrix is
+ * initialised with a new sparsity pattern.
+ *
+ * Singular matrices are recognised by a second right-hand side w_i = s_i sum_j |a_ij| with
+ * scattered numbers s_i of size 1: since the rows of A divided by their sums have the norm 1, the
+ * |y|_2 of A y = w estimates the condition number of that scaled matrix, which does not depend on
+ * units.
+ */
+class LinearSolver
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /** @param dimension number of unknowns per node, 2 or 3: chooses the thresholds and the AMG */
+  LinearSolver(const LinearSolverParameters &parameters, const unsigned int dimension);
+
+  ~LinearSolver();
+
+  LinearSolver(const LinearSolver &)            = delete;
+  LinearSolver &operator=(const LinearSolver &) = delete;
+
+  /**
+   * The modes that hardly cost energy (rigid motions, per body) for the AMG, distributed as the
+   * rows of the matrix. They are copied and kept until replaced. Without modes the `dimension`
+   * translations are used, for unknowns that are numbered node by node.
+   */
+  void set_near_null_space(const std::vector<Vector> &modes);
+
+  /**
+   * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
+   *
+   * @param symmetric whether A is symmetric positive definite, so that CG may be used
+   * @throws LinearSolverFailure (on all processes) if A is singular to working precision, the
+   *         solution is not finite, or the iteration does not converge
+   */
+  LinearSolveResult solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric);
+
+private:
+  class Factorisation;
+
+  LinearSolveResult solve_directly(const Matrix &A, Vector &x, const Vector &b);
+
+  LinearSolveResult solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
+                                      const bool symmetric) const;
+
+  LinearSolverParameters         parameters;
+  unsigned int                   dimension;
+  std::vector<Vector>            near_null_space;
+  std::unique_ptr<Factorisation> factorisation;
+};
+} // namespace scree

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <scree/parameters/section.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** How the length of a Newton step is chosen. */
+enum class LineSearch
+{
+  none,
+  residual,
+  work
+};
+
+/** What a parameter file says about Newton's method. */
+struct NewtonParameters
+{
+  /** Converged at |r| <= relative_tolerance * reference + absolute_tolerance; > 0. */
+  double relative_tolerance = 1e-9;
+
+  /** In the unit of the residual (force); >= 0. */
+  double absolute_tolerance = 0;
+
+  unsigned int max_iterations = 25;
+
+  LineSearch line_search = LineSearch::work;
+
+  /** Reads the entries of the section and records what is not allowed. */
+  void declare(const ParameterSection &section);
+};
+
+/** One Newton iteration, for logs. */
+struct NewtonIteration
+{
+  /** 0 for the residual at the start, then the number of solved systems. */
+  unsigned int number = 0;
+
+  /** |r|_2 after the update, in the unit of the residual. */
+  double residual = 0;
+
+  /** The |r|_2 that would be accepted now. */
+  double tolerance = 0;
+
+  /** |alpha du|_2 of the update, in the unit of the unknowns. */
+  double increment = 0;
+
+  /** The alpha of the update. */
+  double step_length = 1;
+
+  /** Residual evaluations that the line search added to the one of the full step. */
+  unsigned int extra_evaluations = 0;
+};
+
+/** Why Newton's method ended. */
+enum class NewtonStatus
+{
+  converged,
+  converged_at_round_off,
+  max_iterations,
+  diverged,
+  linear_solver_failure
+};
+
+/** The outcome of Newton's method. */
+struct NewtonResult
+{
+  NewtonStatus status = NewtonStatus::max_iterations;
+
+  /** Number of linear systems solved (or tried). */
+  unsigned int iterations = 0;
+
+  /** |r|_2 at the start and after each iteration. */
+  std::vector<double> residuals;
+
+  /** What happened, in a few words with numbers. */
+  std::string message;
+
+  bool converged() const
+  {
+    return status == NewtonStatus::converged || status == NewtonStatus::converged_at_round_off;
+  }
+};
+
+/**
+ * Newton's method for r(u) = 0 with r = f_ext - f_int and the tangent K = -dr/du:
+ *
+ *     K(u) du = r(u),    u <- u + alpha du.
+ *
+ * It knows vectors only. All of them are distributed alike, without ghost entries.
+ *
+ * *Convergence:* |r|_2 <= relative tolerance * reference + absolute tolerance, where a hook
+ * supplies the reference, a norm of forces at the present u. The size of du alone never ends the
+ * iteration. A residual that round-off keeps above the tolerance is accepted
+ * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
+ * of the last two iterations, and the last increment was at most 1e-10 |u|_2.
+ *
+ * *Line searches:* `residual` halves alpha, 8 times at most, until
+ * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)|, and otherwise takes the best alpha it tried (Armijo
+ * with the merit function |r|). `work` looks at G(alpha) = r(u + alpha du) . du: where G(1) has the
+ * opposite sign of G(0) and |G(1)| > 0.8 |G(0)|, the step went too far, and a zero of G is enclosed
+ * by the Illinois variant of regula falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most
+ * (Matthies, Strang, Int. J. Numer. Meth. Engng 14, 1979, 1613-1626). In all cases a step to a
+ * residual that is not finite is halved.
+ *
+ * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
+ * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
+ * the caller goes back to its saved state.
+ */
+class Newton
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /** What the solver asks of its user. */
+  struct Hooks
+  {
+    /** Computes r(u); zero on constrained rows. `r` comes with the distribution of u. */
+    std::function<void(const Vector &u, Vector &r)> residual;
+
+    /**
+     * Solves K(u) du = r; zero on constrained rows. Called for the u and r of the last call of
+     * `residual`. May throw LinearSolverFailure (on all processes).
+     */
+    std::function<void(const Vector &u, const Vector &r, Vector &du)> solve;
+
+    /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
+    std::function<double()> reference;
+
+    /** Told of each iteration; may be empty. */
+    std::function<void(const NewtonIteration &)> observe;
+  };
+
+  /** Keeps copies of both. */
+  Newton(const NewtonParameters &parameters, const Hooks &hooks);
+
+  /**
+   * Solves for u, which enters with the first guess and satisfies the constraints (prescribed
+   * values included).
+   */
+  NewtonResult solve(Vector &u) const;
+
+private:
+  struct Step;
+
+  Step search(const Vector &u, const Vector &du, const Vector &r, const double norm) const;
+
+  Step search_residual(Step step, const Vector &u, const Vector &du, const double norm) const;
+
+  Step search_work(Step step, const Vector &u, const Vector &du, const double work) const;
+
+  void evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const;
+
+  NewtonParameters parameters;
+  Hooks            hooks;
+};
+} // namespace scree

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <scree/parameters/section.h>
+
+#include <cstdint>
+
+namespace scree
+{
+/** What a parameter file says about the load steps. */
+struct TimeParameters
+{
+  /** The load factors run over 0 <= t <= end_time [time], > 0. */
+  double end_time = 1;
+
+  /** Number of nominal steps of equal length, >= 1. */
+  unsigned int steps = 1;
+
+  /** A step is cut down to this fraction of a nominal one at most; 0 < fraction <= 1. */
+  double minimum_step_fraction = 1. / 64;
+
+  /** A step that took this many Newton iterations or fewer was easy. */
+  unsigned int easy_iterations = 10;
+
+  /** Reads the entries of the section and records what is not allowed. */
+  void declare(const ParameterSection &section);
+};
+
+/**
+ * Chooses the load steps: nominal ones at first; a rejected step is halved and tried again; after
+ * two easy steps the length is doubled, up to the nominal one. Every nominal time k T/n is met
+ * exactly, a step that would pass one is shortened.
+ *
+ * Time is counted in ticks of T/(n 2^m), with 2^-m the smallest power of two that is not below the
+ * minimum fraction, so that no rounding accumulates.
+ *
+ *     while (!control.finished())
+ *       if (solve(control.next_time()))     control.accept(iterations);
+ *       else if (!control.reject())         stop;
+ */
+class StepControl
+{
+public:
+  /** Starts at t = 0 with nominal steps. */
+  explicit StepControl(const TimeParameters &parameters);
+
+  /** Whether the end time is reached. */
+  bool finished() const;
+
+  /** End of the last accepted step. */
+  double time() const;
+
+  /** End of the step to be tried now; exactly the end time for the last one. */
+  double next_time() const;
+
+  /** `next_time() - time()`. */
+  double step_size() const;
+
+  /** Length of the step to be tried now as a fraction of a nominal one. */
+  double step_fraction() const;
+
+  /** Whether the last accepted step ended on a nominal time (or none was accepted yet). */
+  bool at_nominal_time() const;
+
+  /** Number of accepted steps. */
+  unsigned int n_accepted() const;
+
+  /** Number of rejected steps. */
+  unsigned int n_rejected() const;
+
+  /** The step succeeded with so many Newton iterations: moves to next_time(). */
+  void accept(const unsigned int newton_iterations);
+
+  /** The step failed: halves it. Returns false if it was already as small as allowed. */
+  bool reject();
+
+private:
+  double time_of(const std::int64_t tick) const;
+
+  std::int64_t step_ticks() const;
+
+  TimeParameters parameters;
+  std::int64_t   ticks_per_step;    // of a nominal step, 2^m
+  std::int64_t   end_tick;          // steps * ticks_per_step
+  std::int64_t   tick = 0;          // the present time
+  std::int64_t   length;            // wanted length of the next step, in ticks
+  unsigned int   easy_in_a_row = 0; // accepted easy steps since the length changed
+  unsigned int   accepted      = 0;
+  unsigned int   rejected      = 0;
+};
+} // namespace scree

@@ -1,0 +1,206 @@
+#include <scree/application/command_line.h>
+#include <scree/application/simulation.h>
+#include <scree/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/revision.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#ifndef SCREE_REVISION
+#  define SCREE_REVISION "unknown"
+#endif
+#ifndef SCREE_VERSION
+#  define SCREE_VERSION "unknown"
+#endif
+
+namespace scree
+{
+namespace
+{
+const char *const usage =
+  R"(scree - frictional contact of deformable bodies on one background grid
+
+  scree FILE.prm [--set Section/Subsection/Key=value ...] [--output DIR]
+      runs the problem; results go to DIR (default: results/FILE)
+  scree --check FILE.prm [--set ...] [--output DIR]
+      says what is wrong with the input and writes what was set up, computes nothing
+  scree --parameters [FILE.md]
+      writes a description of all parameters
+  scree --version
+      version and libraries
+  mpirun -np 2 scree FILE.prm
+      the same on 2 processes
+)";
+
+/** The words of the command line. */
+struct Arguments
+{
+  std::string              file;
+  std::string              output;
+  std::vector<std::string> overrides;
+  bool                     check = false, parameters = false, version = false, help = false;
+};
+
+Arguments
+parse(const int argc, char **argv)
+{
+  Arguments  result;
+  const auto value_of_option = [&](int &i) {
+    require(i + 1 < argc, "command line", std::string(argv[i]) + " needs a value", usage);
+    return std::string(argv[++i]);
+  };
+  for (int i = 1; i < argc; ++i)
+    {
+      const std::string word = argv[i];
+      if (word == "--help" || word == "-h")
+        result.help = true;
+      else if (word == "--version")
+        result.version = true;
+      else if (word == "--check")
+        result.check = true;
+      else if (word == "--parameters")
+        result.parameters = true;
+      else if (word == "--set")
+        result.overrides.push_back(value_of_option(i));
+      else if (word == "--output")
+        result.output = value_of_option(i);
+      else if (word.rfind("--", 0) == 0)
+        throw UserError("command line", "unknown option '" + word + "'", usage);
+      else
+        {
+          require(result.file.empty(), "command line",
+                  "two files are given, '" + result.file + "' and '" + word + "'", usage);
+          result.file = word;
+        }
+    }
+  require(result.help || result.version || result.parameters || !result.file.empty(),
+          "command line", "no parameter file is given", usage);
+  return result;
+}
+
+void
+print_version()
+{
+  std::cout << "scree " << SCREE_VERSION << " (commit " << SCREE_REVISION << ")\n"
+            << "deal.II " << DEAL_II_PACKAGE_VERSION << ", Trilinos "
+            << DEAL_II_TRILINOS_VERSION_MAJOR << "." << DEAL_II_TRILINOS_VERSION_MINOR << ", p4est "
+            << DEAL_II_P4EST_VERSION_MAJOR << "." << DEAL_II_P4EST_VERSION_MINOR << ", MPI "
+            << DEAL_II_MPI_VERSION_MAJOR << "." << DEAL_II_MPI_VERSION_MINOR << std::endl;
+}
+
+void
+write_documentation(const std::string &file_name)
+{
+  ParameterFile file = ParameterFile::documentation();
+  declare_dimension(file);
+  Parameters<2>().declare(file);
+  if (file_name.empty())
+    {
+      file.write_markdown(std::cout);
+      return;
+    }
+  std::ofstream out(file_name);
+  require(out.good(), file_name, "cannot be written");
+  file.write_markdown(out);
+}
+
+/** Makes the output directory; on the first process only. */
+void
+prepare_directory(const std::string &directory, const bool is_first)
+{
+  if (!is_first)
+    return;
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  require(!error && std::filesystem::is_directory(directory), "--output " + directory,
+          "the directory cannot be made: " + error.message(), "choose another place");
+  require(!std::filesystem::exists(directory + "/history.csv"), "--output " + directory,
+          "the directory already holds results (history.csv)",
+          "remove them or choose another directory: nothing is overwritten");
+}
+
+template <int dim>
+void
+run(ParameterFile &file, const Arguments &arguments, const std::string &directory,
+    const MPI_Comm communicator)
+{
+  Parameters<dim> parameters;
+  parameters.declare(file);
+  file.check();
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  prepare_directory(directory, is_first);
+  MPI_Barrier(communicator);
+  if (is_first)
+    {
+      std::ofstream resolved(directory + "/parameters.prm");
+      file.write(resolved);
+    }
+  Simulation<dim> simulation(parameters, directory, communicator);
+  if (arguments.check)
+    simulation.check();
+  else
+    simulation.run();
+}
+
+void
+execute(const Arguments &arguments, const MPI_Comm communicator)
+{
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  if (arguments.help || arguments.version || arguments.parameters)
+    {
+      if (is_first && arguments.help)
+        std::cout << usage;
+      else if (is_first && arguments.version)
+        print_version();
+      else if (is_first)
+        write_documentation(arguments.file);
+      return;
+    }
+  ParameterFile file = ParameterFile::read(arguments.file);
+  for (const std::string &override_text : arguments.overrides)
+    file.override_value(override_text);
+  const std::string directory
+    = arguments.output.empty() ? "results/" + std::filesystem::path(arguments.file).stem().string()
+                                   + (arguments.check ? "_check" : "")
+                               : arguments.output;
+  if (declare_dimension(file) == 2)
+    run<2>(file, arguments, directory, communicator);
+  else
+    run<3>(file, arguments, directory, communicator);
+}
+} // namespace
+
+int
+run_command_line(int argc, char **argv, const MPI_Comm communicator)
+{
+  const bool  is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  std::string message;
+  try
+    {
+      execute(parse(argc, argv), communicator);
+      return 0;
+    }
+  catch (const UserError &error)
+    {
+      message = error.what();
+    }
+  catch (const std::exception &error)
+    {
+      message = std::string("internal error, please report it: ") + error.what();
+    }
+  // The first process speaks for all that met the same error; an error on another process only must
+  // be told too, and must not leave the others waiting.
+  if (!is_first)
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+  std::cout << std::flush;
+  std::cerr << "scree: " + message + "\n" << std::flush;
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+    MPI_Abort(communicator, 1);
+  return 1;
+}
+} // namespace scree

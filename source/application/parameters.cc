@@ -1,0 +1,89 @@
+#include <scree/application/parameters.h>
+
+#include <algorithm>
+
+namespace scree
+{
+unsigned int
+declare_dimension(ParameterFile &file)
+{
+  unsigned int dimension = 2;
+  file.root().entry("Dimension", dimension, dealii::Patterns::Integer(2, 3),
+                    "2: plane strain, unit thickness; 3.");
+  return dimension;
+}
+
+template <int dim>
+void
+OutputParameters<dim>::declare(ParameterSection &section)
+{
+  section.entry("Fields every", fields_every,
+                "The bodies are written as VTU after every so many load steps; 0: never.");
+  section.entry("Contact every", contact_every,
+                "The contact surface is written as CSV and VTU after every so many load steps; 0: "
+                "never.");
+  ParameterSection probe_section
+    = section.subsection("Probes", "Points and lines where fields are tabulated.");
+  for (auto &[name, subsection] : probe_section.named("Names", "Names of points and lines."))
+    {
+      probes.emplace_back();
+      probes.back().name = name;
+      probes.back().declare(subsection);
+    }
+}
+
+template <int dim>
+void
+Parameters<dim>::declare(ParameterFile &file)
+{
+  ParameterSection root = file.root();
+  root.entry("Title", title, "A title for logs and plots.");
+
+  ParameterSection grid_section = root.subsection("Grid", "The background grid.");
+  grid.declare(grid_section);
+
+  ParameterSection discretization = root.subsection("Discretization", "Basis and cut cells.");
+  discretization.entry("Degree", degree, dealii::Patterns::Integer(1, 2),
+                       "Polynomial degree k of the displacement and of the level sets.");
+  discretization.entry("Ghost penalty", ghost_penalty, dealii::Patterns::Double(0.),
+                       "gamma of the ghost penalty on faces of cut cells, 0.01 to 0.1; no "
+                       "dimension.");
+
+  materials = declare_materials(root);
+  std::vector<std::string> material_names, body_names;
+  for (const auto &entry : materials)
+    material_names.push_back(entry.first);
+
+  ParameterSection body_section = root.subsection("Bodies", "The bodies.");
+  bodies                        = declare_bodies<dim>(body_section, material_names);
+  for (const auto &body : bodies)
+    body_names.push_back(body.name);
+  if (bodies.empty())
+    body_section.error("Names", "there is no body", "set Names = ... and a subsection for each");
+
+  ParameterSection contact_section = root.subsection("Contact", "Laws between the bodies.");
+  contact.declare(contact_section, body_names);
+
+  ParameterSection time_section = root.subsection("Time", "Load steps.");
+  time.declare(time_section);
+
+  ParameterSection solver_section = root.subsection("Solver", "How the equations are solved.");
+  ParameterSection newton_section = solver_section.subsection("Newton", "Newton's method.");
+  newton.declare(newton_section);
+  ParameterSection linear_section = solver_section.subsection("Linear", "Linear systems.");
+  linear_solver.declare(linear_section);
+
+  ParameterSection output_section = root.subsection("Output", "What is written.");
+  output.declare(output_section);
+  for (const auto &probe : output.probes)
+    if (std::find(body_names.begin(), body_names.end(), probe.body) == body_names.end())
+      output_section.error("Probes",
+                           "probe '" + probe.name + "': there is no body '" + probe.body + "'",
+                           "name a body of section Bodies");
+}
+
+template struct OutputParameters<2>;
+template struct OutputParameters<3>;
+template struct Parameters<2>;
+template struct Parameters<3>;
+} // namespace scree

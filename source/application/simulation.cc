@@ -1,0 +1,318 @@
+#include <scree/application/simulation.h>
+#include <scree/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace scree
+{
+namespace
+{
+/** Lattice nodes coincide with the support points of degree k on the finest cells. */
+template <int dim>
+LatticeFrame<dim>
+lattice_frame(const BackgroundGrid<dim> &grid, const unsigned int degree)
+{
+  return {grid.grid_parameters().lower, grid.finest_size() / degree, grid.box()};
+}
+
+/** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
+template <int dim>
+double
+lattice_margin(const Parameters<dim> &parameters, const BackgroundGrid<dim> &grid)
+{
+  const auto  &p        = parameters.grid;
+  const double coarsest = p.refinement == GridRefinement::uniform ? p.cell_size(p.finest_level)
+                                                                  : p.cell_size(p.coarsest_level);
+  return std::max((parameters.contact.shift + 2.) * grid.finest_size(), 2. * coarsest);
+}
+
+std::string
+resident_memory()
+{
+  dealii::Utilities::System::MemoryStats stats;
+  dealii::Utilities::System::get_memory_stats(stats);
+  return short_number(stats.VmRSS / 1024.) + " MB";
+}
+} // namespace
+
+template <int dim>
+Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
+                            const MPI_Comm communicator)
+    : parameters(parameters)
+    , communicator(communicator)
+    , log(communicator, output_directory + "/log.txt")
+    , timer(communicator, std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
+    , directory(output_directory)
+    , grid(parameters.grid, communicator)
+    , step_control(parameters.time)
+{
+  set_up();
+  report_set_up();
+}
+
+template <int dim>
+void
+Simulation<dim>::set_up()
+{
+  std::map<std::string, std::shared_ptr<const Material<dim>>> materials;
+  for (const auto &[name, material] : parameters.materials)
+    materials[name] = make_material<dim>(material);
+
+  timer.enter_subsection("geometry");
+  bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(grid, parameters.degree),
+                            lattice_margin(parameters, grid));
+  timer.leave_subsection();
+
+  timer.enter_subsection("grid");
+  const double             reach = 2. * parameters.contact.shift * grid.finest_size();
+  std::vector<ContactPair> pairs;
+  std::vector<std::pair<unsigned int, unsigned int>> indices;
+  for (const auto &[a, b] : candidate_pairs(bodies, reach))
+    {
+      const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
+      if (law.law == ContactLaw::none)
+        continue;
+      pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
+      indices.emplace_back(a, b);
+    }
+  grid.refine(bodies, indices);
+  timer.leave_subsection();
+
+  timer.enter_subsection("fields");
+  level_set_nodes = std::make_unique<LevelSetNodes<dim>>(grid, parameters.degree);
+  fields          = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies,
+                                         BoundaryTerms<dim>::n_multipliers(bodies));
+  timer.leave_subsection();
+
+  timer.enter_subsection("quadrature");
+  quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
+  bulk       = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty);
+  boundary_terms
+    = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies);
+  timer.leave_subsection();
+
+  timer.enter_subsection("contact search");
+  contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
+                                                 parameters.contact.shift * grid.finest_size());
+  timer.leave_subsection();
+
+  timer.enter_subsection("linear assembly");
+  equilibrium
+    = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
+  timer.leave_subsection();
+
+  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim);
+  linear_solver->set_near_null_space(equilibrium->rigid_motions());
+  results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
+                                           parameters.output.probes);
+  state   = initial_state(*fields, *contact);
+}
+
+template <int dim>
+void
+Simulation<dim>::report_set_up()
+{
+  if (!parameters.title.empty())
+    log.line(parameters.title);
+  log.line("Grid: " + std::to_string(grid.triangulation().n_global_active_cells())
+           + " cells, finest edge " + short_number(grid.finest_size()));
+  log.line("Unknowns: " + std::to_string(fields->n_dofs()) + " of degree "
+           + std::to_string(parameters.degree) + " in " + std::to_string(fields->n_fields())
+           + " field(s)");
+  const auto volumes = bulk->volumes();
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
+      require(volumes[b] > 0., bodies[b].path,
+              "the body '" + bodies[b].name + "' has no volume on the grid",
+              "raise Grid/Finest level or check the shape: the body must be wider than a few "
+              "cells of edge "
+                + short_number(grid.finest_size()));
+      double smallest = std::numeric_limits<double>::max();
+      for (unsigned int d = 0; d < dim; ++d)
+        smallest = std::min(smallest, bodies[b].box.side_length(d));
+      if (smallest < 4. * grid.finest_size())
+        log.line("Warning: body " + bodies[b].name + " is only "
+                 + short_number(smallest / grid.finest_size()) + " finest cells wide");
+    }
+  const auto n_points  = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
+  const auto summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
+    {
+      const auto &pair = contact->pairs()[p];
+      log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
+               + pair.law.name + "')"
+               + (std::isnan(summaries[p].minimum_gap)
+                    ? ", farther apart than twice the shift"
+                    : ", initial gap " + short_number(summaries[p].minimum_gap)));
+      if (summaries[p].minimum_gap < -1e-6 * grid.finest_size())
+        log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
+                 + short_number(summaries[p].max_penetration));
+    }
+  log.line("Contact points: " + std::to_string(n_points));
+  for (const auto &free : equilibrium->free_bodies())
+    log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
+             + " rigid motion(s) that only contact can hold; a vanishing artificial mass helps the "
+               "iteration");
+}
+
+template <int dim>
+void
+Simulation<dim>::check()
+{
+  record = StepRecord();
+  results->write_contact(record, *contact);
+  results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
+  log.line("The input is fine; nothing was computed.");
+}
+
+template <int dim>
+void
+Simulation<dim>::run()
+{
+  dealii::Timer wall;
+  unsigned int  attempts = 1;
+  while (!step_control.finished())
+    {
+      if (solve_step(step_control.next_time()))
+        {
+          record.attempts = attempts;
+          attempts        = 1;
+          step_control.accept(record.newton_iterations);
+          write_results();
+          const double done          = step_control.time() / parameters.time.end_time;
+          const double left          = wall.wall_time() * (1. - done) / done;
+          const auto   contact_state = summarise_contact(*contact, communicator);
+          double       open = 0., stick = 0., slip = 0.;
+          for (const auto &summary : contact_state)
+            {
+              open += summary.open;
+              stick += summary.stick;
+              slip += summary.slip;
+            }
+          log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time)
+                   + ": " + std::to_string(record.newton_iterations) + " iterations, residual "
+                   + short_number(record.residual) + ", open/stick/slip " + short_number(open) + "/"
+                   + short_number(stick) + "/" + short_number(slip) + ", "
+                   + short_duration(wall.wall_time()) + ", left " + short_duration(left) + ", "
+                   + resident_memory());
+          log.progress(done, "left " + short_duration(left));
+        }
+      else
+        {
+          ++attempts;
+          require(step_control.reject(), "Time",
+                  "the load step to time " + short_number(record.time)
+                    + " was not solved, not even with the smallest step",
+                  "see the reasons above; use more steps, a smaller tangential penalty factor, or "
+                  "support the bodies that are not held");
+          log.line("  the step is tried again with "
+                   + short_number(100. * step_control.step_fraction()) + "% of its length");
+        }
+    }
+  std::ostringstream summary;
+  log.line("Wall time by part:");
+  for (const auto &[name, seconds] : timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+    log.line("  " + name + ": " + short_number(seconds) + " s");
+  log.line("Finished in " + short_duration(wall.wall_time()) + " with "
+           + std::to_string(step_control.n_rejected())
+           + " rejected step(s). Results: " + directory);
+}
+
+template <int dim>
+bool
+Simulation<dim>::solve_step(const double time)
+{
+  const unsigned int step   = step_control.n_accepted() + 1;
+  record                    = StepRecord();
+  record.step               = step;
+  record.time               = time;
+  auto               u      = state.displacement;
+  const NewtonResult result = solve_equilibrium(time, u);
+  record.newton_iterations  = result.iterations;
+  record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
+  if (!result.converged())
+    {
+      explain_failure(result);
+      return false;
+    }
+  equilibrium->accept(u, state.contact);
+  state.displacement = u;
+  state.contact      = contact->current_history();
+  state.time         = time;
+  return true;
+}
+
+template <int dim>
+NewtonResult
+Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u)
+{
+  using Vector = typename Equilibrium<dim>::Vector;
+  Newton::Hooks hooks;
+  hooks.residual = [&](const Vector &u, Vector &r) {
+    dealii::TimerOutput::Scope scope(timer, "residual");
+    equilibrium->residual(u, state.contact, r);
+  };
+  hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
+    timer.enter_subsection("tangent");
+    const auto &matrix = equilibrium->tangent();
+    timer.leave_subsection();
+    dealii::TimerOutput::Scope scope(timer, "linear solver");
+    const auto solved = linear_solver->solve(matrix, du, r, equilibrium->is_symmetric());
+    record.linear_iterations += solved.iterations;
+  };
+  hooks.reference = [&]() { return equilibrium->force_scale(); };
+  hooks.observe   = [&](const NewtonIteration &iteration) {
+    log.progress(step_control.time() / parameters.time.end_time,
+                   "step " + std::to_string(record.step) + ", iteration "
+                     + std::to_string(iteration.number) + ", residual "
+                     + short_number(iteration.residual) + " of " + short_number(iteration.tolerance));
+  };
+  equilibrium->set_time(time, u);
+  return Newton(parameters.newton, hooks).solve(u);
+}
+
+template <int dim>
+void
+Simulation<dim>::explain_failure(const NewtonResult &result)
+{
+  log.line("Step " + std::to_string(record.step) + " to time " + short_number(record.time)
+           + " failed: " + result.message);
+  std::string history = "  residuals:";
+  for (const double residual : result.residuals)
+    history += " " + short_number(residual);
+  log.line(history);
+  const auto summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < summaries.size(); ++p)
+    log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
+             + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
+             + short_number(summaries[p].slip) + ", smallest gap "
+             + short_number(summaries[p].minimum_gap));
+}
+
+template <int dim>
+void
+Simulation<dim>::write_results()
+{
+  dealii::TimerOutput::Scope scope(timer, "output");
+  const auto                 ghosted = equilibrium->with_ghosts(state.displacement);
+  const auto                &output  = parameters.output;
+  const bool                 is_last = step_control.finished();
+  const auto                 is_due
+    = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
+  results->write_history(record, *equilibrium, *contact, *bulk, state.displacement);
+  results->write_probes(record, *bulk, ghosted);
+  if (is_due(output.fields_every))
+    results->write_fields(record, *bulk, ghosted);
+  if (is_due(output.contact_every))
+    results->write_contact(record, *contact);
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace scree

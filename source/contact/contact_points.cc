@@ -1,0 +1,272 @@
+#include <scree/contact/contact_points.h>
+#include <scree/level_set/closest_point.h>
+
+#include <deal.II/base/utilities.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace scree
+{
+template <int dim>
+ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
+                                  const LevelSetNodes<dim>       &level_set_nodes,
+                                  const std::vector<Body<dim>>   &bodies,
+                                  const std::vector<ContactPair> &pairs, const double shift)
+    : contact_pairs(pairs)
+{
+  for (const ContactPair &pair : pairs)
+    pair_modulus.push_back(
+      2. / (1. / bodies[pair.a].material->young() + 1. / bodies[pair.b].material->young()));
+  find_points(fields, level_set_nodes, bodies, shift);
+  find_stencils(fields, bodies);
+  contact_jumps.resize(contact_points.size());
+  contact_responses.resize(contact_points.size());
+}
+
+template <int dim>
+void
+ContactPoints<dim>::find_points(const Fields<dim>            &fields,
+                                const LevelSetNodes<dim>     &level_set_nodes,
+                                const std::vector<Body<dim>> &bodies, const double shift)
+{
+  const LagrangeBasis<dim>                   &basis = fields.basis;
+  const BackgroundGrid<dim>                  &grid  = fields.grid;
+  CutCellRules<dim>                           rules(basis);
+  std::array<double, max_nodes_per_cell<dim>> phi_a, phi_b, psi, scaled, shape;
+  for (unsigned int p = 0; p < contact_pairs.size(); ++p)
+    {
+      const Lattice<dim> &a = bodies[contact_pairs[p].a].level_set;
+      const Lattice<dim> &b = bodies[contact_pairs[p].b].level_set;
+      for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+        {
+          const GridCell<dim> &cell   = grid.cells()[c];
+          dealii::Point<dim>   centre = cell.lower;
+          for (unsigned int d = 0; d < dim; ++d)
+            centre[d] += 0.5 * cell.size;
+          const double reach = 0.5 * std::sqrt(double(dim)) * cell.size;
+          const double at_a = a.value(centre, 1), at_b = b.value(centre, 1);
+          if (std::max(at_a, at_b) > shift + 2. * reach || std::abs(at_a - at_b) > 4. * reach)
+            continue;
+          level_set_nodes.cell_values(c, a, phi_a.data());
+          level_set_nodes.cell_values(c, b, phi_b.data());
+          unsigned int n_negative = 0;
+          for (unsigned int i = 0; i < basis.n_nodes; ++i)
+            psi[i] = phi_a[i] - phi_b[i];
+          level_set_nodes.nudged(psi.data(), cell.size, scaled.data());
+          for (unsigned int i = 0; i < basis.n_nodes; ++i)
+            n_negative += scaled[i] < 0.;
+          if (n_negative == 0 || n_negative == basis.n_nodes)
+            continue;
+          const CellPoints<dim> surface = rules.rules(scaled.data(), cell.size).surface;
+          for (unsigned int q = 0; q < surface.points.size(); ++q)
+            {
+              basis.evaluate_values(surface.points[q], shape.data());
+              double gap = 0.;
+              for (unsigned int i = 0; i < basis.n_nodes; ++i)
+                gap += shape[i] * (phi_a[i] + phi_b[i]);
+              if (gap > 2. * shift)
+                continue;
+              contact_points.push_back(
+                {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
+                 surface.normals[q], surface.weights[q], gap, cell.size});
+            }
+        }
+    }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
+{
+  const auto                      box = fields.grid.box();
+  std::vector<unsigned int>       of_body;
+  std::vector<dealii::Point<dim>> projected;
+  for (const ContactPoint<dim> &point : contact_points)
+    for (const unsigned int body : {contact_pairs[point.pair].a, contact_pairs[point.pair].b})
+      {
+        dealii::Point<dim> foot
+          = project(bodies[body].level_set, point.position, fields.basis.degree).point;
+        for (unsigned int d = 0; d < dim; ++d)
+          foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
+        of_body.push_back(body);
+        projected.push_back(foot);
+      }
+  const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
+
+  std::vector<ContactPoint<dim>> kept;
+  for (unsigned int i = 0; i < contact_points.size(); ++i)
+    {
+      if (stencils[2 * i].empty() || stencils[2 * i + 1].empty())
+        continue; // the surface ends here: one of the bodies is clipped by the box
+      std::map<DofIndex, double> jump;
+      for (const auto &[node, weight] : stencils[2 * i])
+        jump[node] -= weight;
+      for (const auto &[node, weight] : stencils[2 * i + 1])
+        jump[node] += weight;
+      std::vector<DofIndex> nodes;
+      for (const auto &[node, weight] : jump)
+        nodes.push_back(node);
+      const bool same
+        = !groups.empty() && groups.back().n_nodes == nodes.size()
+          && std::equal(nodes.begin(), nodes.end(), group_nodes.begin() + groups.back().first_node);
+      if (same)
+        ++groups.back().n_points;
+      else
+        {
+          groups.push_back({static_cast<unsigned int>(kept.size()), 1,
+                            static_cast<unsigned int>(group_nodes.size()),
+                            static_cast<unsigned int>(nodes.size()),
+                            static_cast<unsigned int>(stencil_weights.size())});
+          group_nodes.insert(group_nodes.end(), nodes.begin(), nodes.end());
+        }
+      for (const auto &[node, weight] : jump)
+        stencil_weights.push_back(weight);
+      kept.push_back(contact_points[i]);
+    }
+  contact_points = kept;
+}
+
+template <int dim>
+ContactHistory<dim>
+ContactPoints<dim>::initial_history() const
+{
+  const std::vector<dealii::Tensor<1, dim>> zeros(contact_points.size());
+  return {zeros, zeros};
+}
+
+template <int dim>
+ContactHistory<dim>
+ContactPoints<dim>::current_history() const
+{
+  ContactHistory<dim> history = initial_history();
+  history.jump                = contact_jumps;
+  for (unsigned int i = 0; i < contact_points.size(); ++i)
+    history.tau[i] = contact_responses[i].tau;
+  return history;
+}
+
+template <int dim>
+double
+ContactPoints<dim>::eps_n(const unsigned int point) const
+{
+  const ContactPoint<dim> &p = contact_points[point];
+  return contact_pairs[p.pair].law.normal_factor * pair_modulus[p.pair] / p.cell_size;
+}
+
+template <int dim>
+double
+ContactPoints<dim>::eps_t(const unsigned int point) const
+{
+  const ContactPoint<dim> &p = contact_points[point];
+  return contact_pairs[p.pair].law.tangential_factor * pair_modulus[p.pair] / p.cell_size;
+}
+
+template <int dim>
+void
+ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
+{
+  std::vector<double> nodal;
+  for (const Group &group : groups)
+    {
+      nodal.resize(group.n_nodes * dim);
+      for (unsigned int i = 0; i < group.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          nodal[i * dim + d] = u(group_nodes[group.first_node + i] + d);
+      const double *weight = &stencil_weights[group.first_weight];
+      for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
+           ++p, weight += group.n_nodes)
+        {
+          dealii::Tensor<1, dim> jump;
+          for (unsigned int i = 0; i < group.n_nodes; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              jump[d] += weight[i] * nodal[i * dim + d];
+          const ContactPoint<dim> &point = contact_points[p];
+          const auto              &law   = contact_pairs[point.pair].law;
+          contact_jumps[p]               = jump;
+          contact_responses[p]
+            = contact_response<dim>(law.law, law.friction_coefficient,
+                                    {point.initial_gap, point.normal, jump, history.jump[p],
+                                     history.tau[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+        }
+    }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_to_residual(Vector &residual) const
+{
+  std::vector<double>   block;
+  std::vector<DofIndex> indices;
+  for (const Group &group : groups)
+    {
+      block.assign(group.n_nodes * dim, 0.);
+      const double *weight = &stencil_weights[group.first_weight];
+      for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
+           ++p, weight += group.n_nodes)
+        {
+          const dealii::Tensor<1, dim> force
+            = contact_points[p].weight * contact_responses[p].traction(contact_points[p].normal);
+          for (unsigned int i = 0; i < group.n_nodes; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              block[i * dim + d] += weight[i] * force[d];
+        }
+      indices.clear();
+      for (unsigned int i = 0; i < group.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          indices.push_back(group_nodes[group.first_node + i] + d);
+      residual.add(indices, block);
+    }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  dealii::FullMatrix<double> block;
+  std::vector<DofIndex>      indices;
+  for (const Group &group : groups)
+    {
+      block.reinit(group.n_nodes * dim, group.n_nodes * dim);
+      bool          is_closed = false;
+      const double *weight    = &stencil_weights[group.first_weight];
+      for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
+           ++p, weight += group.n_nodes)
+        {
+          if (contact_responses[p].status == ContactStatus::open)
+            continue;
+          is_closed = true;
+          const dealii::Tensor<2, dim> stiffness
+            = contact_points[p].weight * contact_responses[p].tangent;
+          for (unsigned int i = 0; i < group.n_nodes; ++i)
+            for (unsigned int j = 0; j < group.n_nodes; ++j)
+              for (unsigned int d = 0; d < dim; ++d)
+                for (unsigned int e = 0; e < dim; ++e)
+                  block(i * dim + d, j * dim + e) += weight[i] * weight[j] * stiffness[d][e];
+        }
+      if (!is_closed)
+        continue;
+      indices.clear();
+      for (unsigned int i = 0; i < group.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          indices.push_back(group_nodes[group.first_node + i] + d);
+      matrix.add(indices, block);
+    }
+}
+
+template <int dim>
+std::vector<std::vector<DofIndex>>
+ContactPoints<dim>::couplings() const
+{
+  std::vector<std::vector<DofIndex>> result;
+  for (const Group &group : groups)
+    result.emplace_back(group_nodes.begin() + group.first_node,
+                        group_nodes.begin() + group.first_node + group.n_nodes);
+  return result;
+}
+
+template class ContactPoints<2>;
+template class ContactPoints<3>;
+} // namespace scree

@@ -1,0 +1,362 @@
+#include <scree/discretization/fields.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace scree
+{
+template <int dim>
+Fields<dim>::Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
+                    const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers)
+    : basis(level_set_nodes.basis())
+    , grid(grid)
+    , n_multipliers(n_multipliers)
+{
+  classify(level_set_nodes, bodies);
+  colour_bodies(bodies.size());
+  distribute(n_multipliers);
+  list_nodes();
+  collect_constraints();
+}
+
+template <int dim>
+void
+Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
+                      const std::vector<Body<dim>> &bodies)
+{
+  bodies_of_cell.resize(grid.cells().size());
+  for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const GridCell<dim> &cell    = grid.cells()[c];
+        const auto          &box     = bodies[b].box;
+        bool                 overlap = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          overlap &= cell.lower[d] < box.upper_bound(d) + cell.size
+                     && cell.lower[d] + 2. * cell.size > box.lower_bound(d);
+        if (!overlap)
+          continue;
+        const CellLocation location = level_set_nodes.classify(c, bodies[b].level_set);
+        if (location != CellLocation::outside)
+          bodies_of_cell[c].emplace_back(b, location == CellLocation::cut);
+      }
+  using Content = std::vector<std::pair<unsigned int, bool>>;
+  dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
+    grid.triangulation(),
+    [&](const auto &cell) -> std_cxx17::optional<Content> {
+      return bodies_of_cell[grid.local_index(*cell)];
+    },
+    [&](const auto &cell, const Content &content) {
+      bodies_of_cell[grid.local_index(*cell)] = content;
+    });
+}
+
+template <int dim>
+void
+Fields<dim>::colour_bodies(const unsigned int n_bodies)
+{
+  // Bodies at each vertex; two bodies conflict where a cell has vertices of both.
+  std::vector<std::vector<unsigned int>> bodies_at_vertex(grid.triangulation().n_vertices());
+  for (unsigned int c = 0; c < grid.cells().size(); ++c)
+    for (const auto &[body, is_cut] : bodies_of_cell[c])
+      for (const unsigned int v : grid.cells()[c].iterator->vertex_indices())
+        bodies_at_vertex[grid.cells()[c].iterator->vertex_index(v)].push_back(body);
+  std::vector<unsigned int> conflict(n_bodies * n_bodies, 0);
+  for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+    {
+      std::set<unsigned int> near;
+      for (const unsigned int v : grid.cells()[c].iterator->vertex_indices())
+        for (const unsigned int body : bodies_at_vertex[grid.cells()[c].iterator->vertex_index(v)])
+          near.insert(body);
+      for (const unsigned int a : near)
+        for (const unsigned int b : near)
+          conflict[a * n_bodies + b] = 1;
+    }
+  dealii::Utilities::MPI::max(conflict, grid.communicator(), conflict);
+
+  colour.resize(n_bodies);
+  unsigned int n_colours = 0;
+  for (unsigned int b = 0; b < n_bodies; ++b)
+    {
+      std::set<unsigned int> taken;
+      for (unsigned int a = 0; a < b; ++a)
+        if (conflict[a * n_bodies + b])
+          taken.insert(colour[a]);
+      while (taken.count(colour[b]))
+        ++colour[b];
+      n_colours = std::max(n_colours, colour[b] + 1);
+    }
+
+  active_of_grid_cell.assign(n_colours, std::vector<int>(grid.cells().size(), -1));
+  for (unsigned int c = 0; c < grid.cells().size(); ++c)
+    {
+      if (c == grid.n_owned_cells())
+        n_owned = active_cells.size();
+      for (const auto &[body, is_cut] : bodies_of_cell[c])
+        {
+          active_of_grid_cell[colour[body]][c] = active_cells.size();
+          active_cells.push_back({c, body, colour[body], is_cut});
+        }
+    }
+  if (grid.cells().size() == grid.n_owned_cells())
+    n_owned = active_cells.size();
+}
+
+template <int dim>
+void
+Fields<dim>::distribute(const unsigned int n_multipliers)
+{
+  const dealii::hp::FECollection<dim> elements(
+    dealii::FESystem<dim>(dealii::FE_Q<dim>(basis.degree), dim),
+    dealii::FESystem<dim>(dealii::FE_Nothing<dim>(), dim));
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator());
+
+  std::vector<DofIndex> n_of_process(n_ranks, 0);
+  for (const std::vector<int> &active : active_of_grid_cell)
+    {
+      dof_handlers.push_back(std::make_unique<dealii::DoFHandler<dim>>(grid.triangulation()));
+      for (const auto &cell : dof_handlers.back()->active_cell_iterators())
+        if (cell->is_locally_owned())
+          cell->set_active_fe_index(active[grid.local_index(*cell)] < 0);
+      dof_handlers.back()->distribute_dofs(elements);
+
+      std::vector<DofIndex> starts(n_ranks + 1, 0);
+      const auto            counts = dealii::Utilities::MPI::all_gather(
+                   grid.communicator(), DofIndex(dof_handlers.back()->n_locally_owned_dofs()));
+      for (unsigned int p = 0; p < n_ranks; ++p)
+        starts[p + 1] = starts[p] + counts[p];
+      global_start.push_back(n_of_process); // for now the offset inside the process
+      for (unsigned int p = 0; p < n_ranks; ++p)
+        n_of_process[p] += counts[p];
+      field_start.push_back(starts);
+    }
+  n_of_process.back() += n_multipliers;
+  DofIndex process_offset = 0, owned_begin = 0;
+  for (unsigned int p = 0; p < n_ranks; ++p)
+    {
+      for (auto &start : global_start)
+        start[p] += process_offset;
+      if (p == rank)
+        owned_begin = process_offset;
+      process_offset += n_of_process[p];
+    }
+  owned_dofs = dealii::IndexSet(process_offset);
+  owned_dofs.add_range(owned_begin, owned_begin + n_of_process[rank]);
+  owned_dofs.compress();
+}
+
+template <int dim>
+DofIndex
+Fields<dim>::global_index(const unsigned int field, const DofIndex local) const
+{
+  const auto        &starts = field_start[field];
+  const unsigned int process
+    = std::upper_bound(starts.begin(), starts.end(), local) - starts.begin() - 1;
+  return global_start[field][process] + local - starts[process];
+}
+
+template <int dim>
+void
+Fields<dim>::list_nodes()
+{
+  const dealii::FESystem<dim> element(dealii::FE_Q<dim>(basis.degree), dim);
+  const auto                  lexicographic
+    = dealii::FETools::hierarchic_to_lexicographic_numbering<dim>(basis.degree);
+  std::vector<unsigned int> node_of(element.n_dofs_per_cell()), component_of(node_of.size());
+  for (unsigned int i = 0; i < node_of.size(); ++i)
+    {
+      const auto [component, index] = element.system_to_component_index(i);
+      component_of[i]               = component;
+      node_of[i]                    = lexicographic[index];
+    }
+
+  std::vector<DofIndex> indices(element.n_dofs_per_cell()), relevant;
+  cell_nodes.resize(active_cells.size() * basis.n_nodes);
+  for (unsigned int a = 0; a < active_cells.size(); ++a)
+    {
+      const ActiveCell &cell     = active_cells[a];
+      const auto       &iterator = grid.cells()[cell.grid_cell].iterator;
+      typename dealii::DoFHandler<dim>::active_cell_iterator(
+        &grid.triangulation(), iterator->level(), iterator->index(), dof_handlers[cell.field].get())
+        ->get_dof_indices(indices);
+      DofIndex *nodes = &cell_nodes[std::size_t(a) * basis.n_nodes];
+      for (unsigned int i = 0; i < indices.size(); ++i)
+        if (component_of[i] == 0)
+          nodes[node_of[i]] = global_index(cell.field, indices[i]);
+      for (unsigned int i = 0; i < indices.size(); ++i)
+        {
+          const DofIndex global = nodes[node_of[i]] + component_of[i];
+          AssertThrow(global_index(cell.field, indices[i]) == global,
+                      dealii::ExcMessage("the components of a node are not contiguous"));
+          relevant.push_back(global);
+        }
+    }
+  std::sort(relevant.begin(), relevant.end());
+  relevant.erase(std::unique(relevant.begin(), relevant.end()), relevant.end());
+  relevant_dofs = owned_dofs;
+  relevant_dofs.add_indices(relevant.begin(), relevant.end());
+  for (unsigned int i = 0; i < n_multipliers; ++i)
+    relevant_dofs.add_index(multiplier(i));
+}
+
+template <int dim>
+void
+Fields<dim>::collect_constraints()
+{
+  std::vector<std::pair<DofIndex, std::vector<std::pair<DofIndex, double>>>> lines;
+  for (unsigned int f = 0; f < dof_handlers.size(); ++f)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(*dof_handlers[f], relevant);
+      dealii::AffineConstraints<double> of_field(relevant);
+      dealii::DoFTools::make_hanging_node_constraints(*dof_handlers[f], of_field);
+      of_field.close();
+      for (const auto &line : of_field.get_lines())
+        {
+          lines.emplace_back(global_index(f, line.index),
+                             std::vector<std::pair<DofIndex, double>>());
+          for (const auto &[master, weight] : line.entries)
+            {
+              lines.back().second.emplace_back(global_index(f, master), weight);
+              relevant_dofs.add_index(lines.back().second.back().first);
+            }
+        }
+    }
+  relevant_dofs.compress();
+  constraints.reinit(relevant_dofs);
+  for (const auto &[index, entries] : lines)
+    {
+      constraints.add_line(index);
+      constraints.add_entries(index, entries);
+    }
+  constraints.close();
+}
+
+template <int dim>
+int
+Fields<dim>::active_cell(const unsigned int grid_cell, const unsigned int body) const
+{
+  const int active = active_of_grid_cell[colour[body]][grid_cell];
+  return active >= 0 && active_cells[active].body == body ? active : -1;
+}
+
+template <int dim>
+int
+Fields<dim>::nearest_active_cell(const dealii::Point<dim> &point, const unsigned int body) const
+{
+  const auto here = grid.locate(point);
+  if (here.local_cell < 0)
+    return -1;
+  int nearest = active_cell(here.local_cell, body);
+  if (nearest >= 0)
+    return nearest;
+  // The point lies next to the body: try the cells around its own, nearest first.
+  double       smallest = std::numeric_limits<double>::max();
+  const double size     = grid.cells()[here.local_cell].size;
+  for (const double reach : {1e-6 * size, 0.5 * grid.finest_size(), size})
+    {
+      for (unsigned int i = 0; i < dealii::Utilities::fixed_power<dim>(3u); ++i)
+        {
+          dealii::Point<dim> probe = point;
+          unsigned int       rest  = i;
+          for (unsigned int d = 0; d < dim; ++d, rest /= 3)
+            probe[d] += (int(rest % 3) - 1) * reach;
+          const auto there  = grid.locate(probe);
+          const int  active = there.local_cell < 0 ? -1 : active_cell(there.local_cell, body);
+          if (active < 0)
+            continue;
+          const GridCell<dim> &cell     = grid.cells()[there.local_cell];
+          double               distance = 0.;
+          for (unsigned int d = 0; d < dim; ++d)
+            distance = std::max(
+              {distance, cell.lower[d] - point[d], point[d] - cell.lower[d] - cell.size});
+          if (distance < smallest)
+            {
+              smallest = distance;
+              nearest  = active;
+            }
+        }
+      if (nearest >= 0)
+        return nearest;
+    }
+  return -1;
+}
+
+template <int dim>
+dealii::Point<dim>
+Fields<dim>::unit_point(const unsigned int active_cell, const dealii::Point<dim> &point) const
+{
+  const GridCell<dim> &cell = grid.cells()[active_cells[active_cell].grid_cell];
+  return dealii::Point<dim>((point - cell.lower) / cell.size);
+}
+
+template <int dim>
+NodeStencil
+Fields<dim>::local_stencil(const unsigned int body, const dealii::Point<dim> &point) const
+{
+  const int cell = nearest_active_cell(point, body);
+  if (cell < 0)
+    return {};
+  std::array<double, max_nodes_per_cell<dim>> values;
+  basis.evaluate_values(unit_point(cell, point), values.data());
+  std::map<DofIndex, double> combination;
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    {
+      const DofIndex node = nodes(cell)[i];
+      if (const auto *entries = constraints.get_constraint_entries(node))
+        for (const auto &[master, weight] : *entries)
+          combination[master] += weight * values[i];
+      else
+        combination[node] += values[i];
+    }
+  return NodeStencil(combination.begin(), combination.end());
+}
+
+template <int dim>
+std::vector<NodeStencil>
+Fields<dim>::stencils(const std::vector<unsigned int>       &bodies,
+                      const std::vector<dealii::Point<dim>> &points) const
+{
+  using Request           = std::pair<std::vector<unsigned int>, std::vector<dealii::Point<dim>>>;
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+
+  std::vector<NodeStencil>                          result(points.size());
+  std::map<unsigned int, Request>                   requests;
+  std::map<unsigned int, std::vector<unsigned int>> origin;
+  for (unsigned int i = 0; i < points.size(); ++i)
+    {
+      const unsigned int owner = grid.locate(points[i]).rank;
+      if (owner == rank)
+        result[i] = local_stencil(bodies[i], points[i]);
+      else
+        {
+          requests[owner].first.push_back(bodies[i]);
+          requests[owner].second.push_back(points[i]);
+          origin[owner].push_back(i);
+        }
+    }
+  const auto received = dealii::Utilities::MPI::some_to_some(grid.communicator(), requests);
+  std::map<unsigned int, std::vector<NodeStencil>> answers;
+  for (const auto &[asker, request] : received)
+    for (unsigned int i = 0; i < request.first.size(); ++i)
+      answers[asker].push_back(local_stencil(request.first[i], request.second[i]));
+  for (const auto &[owner, stencils] :
+       dealii::Utilities::MPI::some_to_some(grid.communicator(), answers))
+    for (unsigned int i = 0; i < stencils.size(); ++i)
+      result[origin[owner][i]] = stencils[i];
+  return result;
+}
+
+template class Fields<2>;
+template class Fields<3>;
+} // namespace scree

@@ -1,0 +1,140 @@
+#include <scree/geometry/composed_shapes.h>
+
+#include <algorithm>
+
+namespace scree
+{
+using namespace dealii;
+
+template <int dim>
+ExpressionShape<dim>::ExpressionShape(const Expression<dim> &expression, const bool distance)
+    : expression(expression)
+    , distance(distance)
+{
+}
+
+template <int dim>
+double
+ExpressionShape<dim>::signed_distance(const Point<dim> &x) const
+{
+  return expression.value(x);
+}
+
+template <int dim>
+bool
+ExpressionShape<dim>::is_distance() const
+{
+  return distance;
+}
+
+template <int dim>
+BoundingBox<dim>
+ExpressionShape<dim>::bounding_box() const
+{
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = -Shape<dim>::unbounded;
+      upper[d] = Shape<dim>::unbounded;
+    }
+  return BoundingBox<dim>({lower, upper});
+}
+
+template <int dim>
+MovedShape<dim>::MovedShape(ShapePointer<dim> shape, const Tensor<2, dim> &rotation,
+                            const Point<dim> &centre, const Tensor<1, dim> &translation)
+    : shape(std::move(shape))
+    , rotation(rotation)
+    , centre(centre)
+    , translation(translation)
+{
+}
+
+template <int dim>
+double
+MovedShape<dim>::signed_distance(const Point<dim> &x) const
+{
+  return shape->signed_distance(centre + transpose(rotation) * (x - translation - centre));
+}
+
+template <int dim>
+bool
+MovedShape<dim>::is_distance() const
+{
+  return shape->is_distance();
+}
+
+template <int dim>
+BoundingBox<dim>
+MovedShape<dim>::bounding_box() const
+{
+  const BoundingBox<dim>  box = shape->bounding_box();
+  std::vector<Point<dim>> corners;
+  for (unsigned int v = 0; v < (1u << dim); ++v)
+    corners.push_back(centre + rotation * (box.vertex(v) - centre) + translation);
+  return BoundingBox<dim>(corners);
+}
+
+template <int dim>
+CombinedShape<dim>::CombinedShape(const ShapeType type, std::vector<ShapePointer<dim>> parts)
+    : type(type)
+    , parts(std::move(parts))
+{
+  Assert(!this->parts.empty(), ExcMessage("A combination needs parts."));
+}
+
+template <int dim>
+double
+CombinedShape<dim>::signed_distance(const Point<dim> &x) const
+{
+  double result = parts[0]->signed_distance(x);
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    {
+      const double part = parts[i]->signed_distance(x);
+      result            = type == ShapeType::union_of     ? std::min(result, part)
+                          : type == ShapeType::difference ? std::max(result, -part)
+                                                          : std::max(result, part);
+    }
+  return result;
+}
+
+template <int dim>
+bool
+CombinedShape<dim>::is_distance() const
+{
+  return false;
+}
+
+template <int dim>
+BoundingBox<dim>
+CombinedShape<dim>::bounding_box() const
+{
+  BoundingBox<dim> result = parts[0]->bounding_box();
+  if (type == ShapeType::difference)
+    return result;
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    {
+      const BoundingBox<dim> part = parts[i]->bounding_box();
+      if (type == ShapeType::union_of)
+        {
+          result.merge_with(part);
+          continue;
+        }
+      auto &[lower, upper] = result.get_boundary_points();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::max(lower[d], part.lower_bound(d));
+          upper[d] = std::max(lower[d], std::min(upper[d], part.upper_bound(d)));
+        }
+    }
+  return result;
+}
+
+#define INSTANTIATE(dim)               \
+  template class ExpressionShape<dim>; \
+  template class MovedShape<dim>;      \
+  template class CombinedShape<dim>;
+
+INSTANTIATE(2)
+INSTANTIATE(3)
+} // namespace scree

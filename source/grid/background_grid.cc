@@ -1,0 +1,227 @@
+#include <scree/base/exceptions.h>
+#include <scree/grid/background_grid.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace scree
+{
+namespace
+{
+const EnumNames<GridRefinement> grid_refinement_names
+  = {{GridRefinement::uniform, "uniform"}, {GridRefinement::contact, "contact"}};
+
+/** Interleaves the bits of dim integers: the Morton key. */
+template <int dim>
+std::uint64_t
+interleave(const std::array<std::uint32_t, dim> &index)
+{
+  std::uint64_t key = 0;
+  for (unsigned int bit = 0; bit < 63 / dim; ++bit)
+    for (unsigned int d = 0; d < dim; ++d)
+      key |= std::uint64_t((index[d] >> bit) & 1u) << (bit * dim + d);
+  return key;
+}
+
+std::string
+number(const double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+} // namespace
+
+template <int dim>
+void
+GridParameters<dim>::declare(ParameterSection &section)
+{
+  const bool is_documentation = section.is_documentation();
+  section.entry("Lower corner", lower, "Lower corner of the background box [L].");
+  section.entry("Upper corner", upper, "Upper corner of the background box [L].");
+  section.entry("Cells", cells,
+                "Number of cells per direction at level 0; the cells must be squares or cubes.");
+  section.entry("Finest level", finest_level, dealii::Patterns::Integer(0, 20),
+                "Level of the finest cells; each level halves the edge of level 0.");
+  section.entry("Coarsest level", coarsest_level, dealii::Patterns::Integer(0, 20),
+                "Level of the coarsest cells of a refinement by contact.");
+  section.entry("Refinement", refinement, grid_refinement_names,
+                "uniform: all cells at the finest level; contact: finest where bodies may touch, "
+                "coarser with the distance from there.");
+  section.entry("Band", band, dealii::Patterns::Double(2.),
+                "Width of the finest cells around possible contact, in finest cells.");
+  section.entry("Grading", grading, dealii::Patterns::Double(0.),
+                "Growth of the cell size per distance from the band; no dimension.");
+  section.entry("Cell size limit", cell_size_limit,
+                "Expression of x, y, z: no cell there is larger [L]; empty: no limit.");
+  if (is_documentation)
+    return;
+  if (cells.size() != dim || *std::min_element(cells.begin(), cells.end()) == 0)
+    {
+      section.error("Cells", "needs " + std::to_string(dim) + " positive numbers", "Cells = 10, 4");
+      return;
+    }
+  for (unsigned int d = 0; d < dim; ++d)
+    if (!(lower[d] < upper[d]))
+      {
+        section.error("Upper corner", "must lie above Lower corner in every direction", "");
+        return;
+      }
+  for (unsigned int d = 1; d < dim; ++d)
+    {
+      const double edge = cell_size(0), other = (upper[d] - lower[d]) / cells[d];
+      if (std::abs(edge - other) > 1e-10 * edge)
+        section.error("Cells",
+                      "cells are not squares or cubes: edges " + number(edge) + " and "
+                        + number(other),
+                      "change Cells or the corners until (upper - lower)/cells agrees");
+    }
+  if (coarsest_level > finest_level)
+    section.error("Coarsest level", "exceeds Finest level", "lower it");
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::log2(double(cells[d])) + finest_level > 63 / dim - 1)
+      section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
+  if (!cell_size_limit.empty())
+    try
+      {
+        Expression<dim>(cell_size_limit, 1, "Cell size limit");
+      }
+    catch (const UserError &error)
+      {
+        section.error("Cell size limit", error.what(), "");
+      }
+}
+
+template <int dim>
+BackgroundGrid<dim>::BackgroundGrid(const GridParameters<dim> &parameters,
+                                    const MPI_Comm             communicator)
+    : parameters(parameters)
+    , tria(communicator, dealii::Triangulation<dim>::limit_level_difference_at_vertices,
+           dealii::parallel::distributed::Triangulation<dim>::default_setting)
+{
+  dealii::GridGenerator::subdivided_hyper_rectangle(tria, parameters.cells, parameters.lower,
+                                                    parameters.upper, true);
+  tria.refine_global(parameters.refinement == GridRefinement::uniform ? parameters.finest_level
+                                                                      : parameters.coarsest_level);
+  list_cells();
+}
+
+template <int dim>
+void
+BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                             &bodies,
+                            const std::vector<std::pair<unsigned int, unsigned int>> &pairs)
+{
+  if (parameters.refinement == GridRefinement::uniform)
+    return;
+  const double                     h = finest_size();
+  std::unique_ptr<Expression<dim>> limit;
+  if (!parameters.cell_size_limit.empty())
+    limit = std::make_unique<Expression<dim>>(parameters.cell_size_limit, 1, "Cell size limit");
+  const auto is_too_large = [&](const dealii::Point<dim> &centre, const double size) {
+    const double half_diagonal = 0.5 * std::sqrt(double(dim)) * size;
+    if (limit && size > limit->value(centre) * (1. + 1e-10))
+      return true;
+    for (const auto &[a, b] : pairs)
+      {
+        // The level sets are distances: the cell is at least this far from a place of contact.
+        const double distance
+          = std::max(bodies[a].level_set.value(centre, 1), bodies[b].level_set.value(centre, 1))
+            - half_diagonal;
+        if (size
+            > h + parameters.grading * std::max(0., distance - parameters.band * h) + 1e-10 * h)
+          return true;
+      }
+    return false;
+  };
+  for (unsigned int level = parameters.coarsest_level; level < parameters.finest_level; ++level)
+    {
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->level() < int(parameters.finest_level)
+            && is_too_large(cell->center(), parameters.cell_size(cell->level())))
+          cell->set_refine_flag();
+      tria.execute_coarsening_and_refinement();
+    }
+  list_cells();
+}
+
+template <int dim>
+std::uint64_t
+BackgroundGrid<dim>::key_of(const dealii::Point<dim> &point) const
+{
+  const double                   h = finest_size();
+  std::array<std::uint32_t, dim> index;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double last = double(parameters.cells[d] << parameters.finest_level) - 1.;
+      index[d]          = std::clamp(std::floor((point[d] - parameters.lower[d]) / h), 0., last);
+    }
+  return interleave<dim>(index);
+}
+
+template <int dim>
+void
+BackgroundGrid<dim>::list_cells()
+{
+  local_cells.clear();
+  local_of_active.assign(tria.n_active_cells(), -1);
+  for (const bool owned : {true, false})
+    {
+      for (const auto &cell : tria.active_cell_iterators())
+        if (owned ? cell->is_locally_owned() : cell->is_ghost())
+          {
+            const double size = parameters.cell_size(cell->level());
+            // Exact multiples of the finest size, whatever the round-off of the vertices.
+            dealii::Point<dim> lower;
+            const double       h = finest_size();
+            for (unsigned int d = 0; d < dim; ++d)
+              lower[d] = parameters.lower[d]
+                         + std::round((cell->vertex(0)[d] - parameters.lower[d]) / h) * h;
+            dealii::Point<dim> inner = lower;
+            for (unsigned int d = 0; d < dim; ++d)
+              inner[d] += 0.5 * h;
+            local_of_active[cell->active_cell_index()] = local_cells.size();
+            local_cells.push_back({lower, size, key_of(inner), cell});
+          }
+      if (owned)
+        n_owned = local_cells.size();
+    }
+
+  std::vector<std::uint64_t> keys;
+  for (unsigned int c = 0; c < n_owned; ++c)
+    keys.push_back(local_cells[c].key);
+  const auto all_keys = dealii::Utilities::MPI::all_gather(communicator(), keys);
+  std::unordered_map<std::uint64_t, int> local_of_key;
+  for (unsigned int c = 0; c < local_cells.size(); ++c)
+    local_of_key[local_cells[c].key] = c;
+  map.clear();
+  for (unsigned int rank = 0; rank < all_keys.size(); ++rank)
+    for (const std::uint64_t key : all_keys[rank])
+      {
+        const auto found = local_of_key.find(key);
+        map.push_back({key, rank, found == local_of_key.end() ? -1 : found->second});
+      }
+  std::sort(map.begin(), map.end(),
+            [](const MapEntry &a, const MapEntry &b) { return a.key < b.key; });
+}
+
+template <int dim>
+typename BackgroundGrid<dim>::Location
+BackgroundGrid<dim>::locate(const dealii::Point<dim> &point) const
+{
+  const std::uint64_t key = key_of(point);
+  const auto          after
+    = std::upper_bound(map.begin(), map.end(), key,
+                       [](const std::uint64_t k, const MapEntry &e) { return k < e.key; });
+  const MapEntry &entry = *(after - 1);
+  return {entry.rank, entry.local_cell};
+}
+
+template struct GridParameters<2>;
+template struct GridParameters<3>;
+template class BackgroundGrid<2>;
+template class BackgroundGrid<3>;
+} // namespace scree

@@ -1,0 +1,484 @@
+#include <scree/base/exceptions.h>
+#include <scree/mechanics/boundary_terms.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+template <int dim>
+dealii::Tensor<1, 3>
+moment_of(const dealii::Tensor<1, dim> &position, const dealii::Tensor<1, dim> &force)
+{
+  dealii::Tensor<1, 3> moment;
+  moment[2] = position[0] * force[1] - position[1] * force[0];
+  if (dim == 3)
+    {
+      moment[0] = position[1] * force[dim - 1] - position[dim - 1] * force[1];
+      moment[1] = position[dim - 1] * force[0] - position[0] * force[dim - 1];
+    }
+  return moment;
+}
+
+template <int dim>
+unsigned int
+BoundaryTerms<dim>::n_multipliers(const std::vector<Body<dim>> &bodies)
+{
+  unsigned int n = 0;
+  for (const auto &body : bodies)
+    for (const auto &condition : body.conditions)
+      if (condition.parameters.type == ConditionType::mean_support)
+        n += condition.components.size();
+  return n;
+}
+
+template <int dim>
+BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
+                                  const LevelSetNodes<dim>     &level_set_nodes,
+                                  const CutQuadrature<dim>     &quadrature,
+                                  const std::vector<Body<dim>> &bodies)
+    : fields(fields)
+    , bodies(bodies)
+{
+  unsigned int next_multiplier = 0;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (const auto &condition : bodies[b].conditions)
+      {
+        if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
+          continue;
+        boundary_regions.push_back({b, &condition, {}, 0., {}, next_multiplier});
+        BoundaryRegion<dim> &region = boundary_regions.back();
+        find_points(region, level_set_nodes, quadrature, bodies[b]);
+        measure(region);
+        require(region.area > 0., condition.path,
+                "the region selects nothing of the body '" + bodies[b].name + "'",
+                "check On and Where; does the body reach that face of the box?");
+        if (condition.parameters.type == ConditionType::mean_support)
+          next_multiplier += condition.components.size();
+      }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::find_points(BoundaryRegion<dim>      &region,
+                                const LevelSetNodes<dim> &level_set_nodes,
+                                const CutQuadrature<dim> &quadrature, const Body<dim> &body) const
+{
+  CutCellRules<dim>                           rules(fields.basis);
+  std::array<double, max_nodes_per_cell<dim>> values, scaled;
+  const unsigned int                          face = region.condition->box_face;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell = fields.cells()[a];
+      if (cell.body != region.body)
+        continue;
+      const auto     &geometry = fields.grid.cells()[cell.grid_cell];
+      CellPoints<dim> points;
+      if (face == BoundaryCondition<dim>::no_face)
+        {
+          for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1];
+               ++q)
+            {
+              points.points.push_back(quadrature.surface.points[q]);
+              points.weights.push_back(quadrature.surface.weights[q]);
+              points.normals.push_back(quadrature.surface.normals[q]);
+            }
+        }
+      else
+        {
+          const auto &iterator = geometry.iterator;
+          if (!iterator->at_boundary(face))
+            continue;
+          level_set_nodes.cell_values(cell.grid_cell, body.level_set, values.data());
+          level_set_nodes.nudged(values.data(), geometry.size, scaled.data());
+          points = rules.face_rule(scaled.data(), geometry.size, face);
+        }
+      for (unsigned int q = 0; q < points.points.size(); ++q)
+        {
+          const dealii::Point<dim> position
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
+          if (region.condition->selects(position))
+            region.points.push_back(
+              {a, points.points[q], position, points.normals[q], points.weights[q]});
+        }
+    }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::measure(BoundaryRegion<dim> &region) const
+{
+  dealii::Tensor<1, dim> first_moment;
+  double                 area = 0.;
+  for (const auto &point : region.points)
+    {
+      area += point.weight;
+      first_moment += point.weight * point.position;
+    }
+  region.area  = dealii::Utilities::MPI::sum(area, fields.grid.communicator());
+  first_moment = dealii::Utilities::MPI::sum(first_moment, fields.grid.communicator());
+  if (region.area > 0.)
+    region.centre = dealii::Point<dim>(first_moment / region.area);
+}
+
+template <int dim>
+double
+BoundaryTerms<dim>::beta(const BoundaryRegion<dim> &region, const unsigned int q) const
+{
+  const ActiveCell &cell = fields.cells()[region.points[q].active_cell];
+  const double      k    = fields.basis.degree;
+  return region.condition->parameters.penalty_factor * k * k
+         * bodies[region.body].material->p_wave_modulus()
+         / fields.grid.cells()[cell.grid_cell].size;
+}
+
+template <int dim>
+double
+BoundaryTerms<dim>::multiplier_scale(const BoundaryRegion<dim> &region) const
+{
+  return bodies[region.body].material->young() * std::pow(fields.grid.finest_size(), dim - 2)
+         / region.area;
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
+                                   const BoundaryPoint<dim> &point, ShapeValues<dim> &shape,
+                                   std::vector<dealii::Tensor<1, dim>> &vectors) const
+{
+  const auto  &material = *bodies[region.body].material;
+  const double lambda = material.lame_lambda(), mu = material.shear_modulus();
+  const double scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
+  const auto  &n     = point.normal;
+  fields.basis.evaluate(point.unit_point, shape);
+  vectors.resize(fields.basis.n_nodes * dim);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    {
+      const dealii::Tensor<1, dim> g  = scale * shape.gradient[a];
+      const double                 gn = g * n;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          // sigma = lambda g_i I + mu (e_i g + g e_i)
+          dealii::Tensor<1, dim> vector = lambda * g[i] * n + mu * n[i] * g;
+          vector[i] += mu * gn;
+          vectors[a * dim + i] = vector;
+        }
+    }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::mean_row(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
+                             const unsigned int m, std::vector<double> &row) const
+{
+  std::vector<double> shape(fields.basis.n_nodes);
+  fields.basis.evaluate_values(point.unit_point, shape.data());
+  const unsigned int           component = region.condition->components[m];
+  const dealii::Tensor<1, dim> arm       = point.position - region.centre;
+  row.assign(fields.basis.n_nodes * dim, 0.);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    if (component < dim)
+      row[a * dim + component] = shape[a] * point.weight;
+    else
+      {
+        row[a * dim]     = -arm[1] * shape[a] * point.weight;
+        row[a * dim + 1] = arm[0] * shape[a] * point.weight;
+      }
+  const double scale = multiplier_scale(region);
+  for (double &entry : row)
+    entry *= scale;
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  const unsigned int                  n = fields.basis.n_nodes;
+  ShapeValues<dim>                    shape;
+  std::vector<dealii::Tensor<1, dim>> stress;
+  dealii::FullMatrix<double>          block;
+  std::vector<double>                 row;
+  for (const auto &region : boundary_regions)
+    for (unsigned int q = 0; q < region.points.size(); ++q)
+      {
+        const auto &point   = region.points[q];
+        const auto  type    = region.condition->parameters.type;
+        auto        indices = unknowns_of_nodes<dim>(fields.nodes(point.active_cell), n);
+        if (type == ConditionType::mean_support)
+          {
+            const unsigned int n_rows = region.condition->components.size();
+            block.reinit(n * dim + n_rows, n * dim + n_rows);
+            for (unsigned int m = 0; m < n_rows; ++m)
+              {
+                mean_row(region, point, m, row);
+                indices.push_back(fields.multiplier(region.first_multiplier + m));
+                for (unsigned int i = 0; i < n * dim; ++i)
+                  block(i, n * dim + m) = block(n * dim + m, i) = row[i];
+              }
+            fields.hanging_constraints().distribute_local_to_global(block, indices, matrix);
+            continue;
+          }
+        if (type != ConditionType::springs && type != ConditionType::displacement)
+          continue;
+        block.reinit(n * dim, n * dim);
+        stress_vectors(region, point, shape, stress);
+        const auto method = region.condition->parameters.method;
+        const bool nitsche
+          = type == ConditionType::displacement && method != DisplacementMethod::penalty;
+        const double adjoint = method == DisplacementMethod::nonsymmetric_nitsche ? 1. : -1.;
+        for (unsigned int k = 0; k < region.condition->components.size(); ++k)
+          {
+            const unsigned int c         = region.condition->components[k];
+            const double       stiffness = type == ConditionType::springs
+                                             ? region.condition->value(k, point.position, 0.)
+                                             : beta(region, q);
+            for (unsigned int a = 0; a < n; ++a)
+              for (unsigned int b = 0; b < n; ++b)
+                block(a * dim + c, b * dim + c)
+                  += point.weight * stiffness * shape.value[a] * shape.value[b];
+            if (nitsche)
+              for (unsigned int a = 0; a < n; ++a)
+                for (unsigned int j = 0; j < n * dim; ++j)
+                  {
+                    const double entry = point.weight * shape.value[a] * stress[j][c];
+                    block(a * dim + c, j) -= entry;
+                    block(j, a * dim + c) += adjoint * entry;
+                  }
+          }
+        fields.hanging_constraints().distribute_local_to_global(block, indices, matrix);
+      }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_loads,
+                              const bool prescribed) const
+{
+  const unsigned int                  n = fields.basis.n_nodes;
+  ShapeValues<dim>                    shape;
+  std::vector<dealii::Tensor<1, dim>> stress;
+  dealii::Vector<double>              cell_load(n * dim);
+  for (const auto &region : boundary_regions)
+    {
+      const auto &condition = *region.condition;
+      const auto  type      = condition.parameters.type;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto &point   = region.points[q];
+          const auto  indices = unknowns_of_nodes<dim>(fields.nodes(point.active_cell), n);
+          cell_load           = 0.;
+          if (type == ConditionType::mean_support && prescribed)
+            {
+              const dealii::Tensor<1, dim> arm = point.position - region.centre;
+              for (unsigned int m = 0; m < condition.components.size(); ++m)
+                loads(fields.multiplier(region.first_multiplier + m))
+                  += multiplier_scale(region) * point.weight
+                     * condition.value(m, point.position, time)
+                     * (condition.components[m] < dim ? 1. : arm * arm);
+              continue;
+            }
+          if (dead_loads && (type == ConditionType::traction || type == ConditionType::pressure))
+            {
+              const dealii::Tensor<1, dim> t
+                = type == ConditionType::traction
+                    ? condition.vector(point.position, time)
+                    : -condition.value(0, point.position, time) * point.normal;
+              stress_vectors(region, point, shape, stress);
+              for (unsigned int a = 0; a < n; ++a)
+                for (unsigned int d = 0; d < dim; ++d)
+                  cell_load(a * dim + d) = point.weight * shape.value[a] * t[d];
+            }
+          else if (prescribed && type == ConditionType::displacement)
+            {
+              stress_vectors(region, point, shape, stress);
+              const auto   method  = condition.parameters.method;
+              const double adjoint = method == DisplacementMethod::penalty                ? 0.
+                                     : method == DisplacementMethod::nonsymmetric_nitsche ? 1.
+                                                                                          : -1.;
+              for (unsigned int k = 0; k < condition.components.size(); ++k)
+                {
+                  const unsigned int c     = condition.components[k];
+                  const double       value = condition.value(k, point.position, time);
+                  for (unsigned int a = 0; a < n; ++a)
+                    cell_load(a * dim + c)
+                      += point.weight * beta(region, q) * shape.value[a] * value;
+                  for (unsigned int j = 0; j < n * dim; ++j)
+                    cell_load(j) += adjoint * point.weight * stress[j][c] * value;
+                }
+            }
+          else
+            continue;
+          fields.hanging_constraints().distribute_local_to_global(cell_load, indices, loads);
+        }
+    }
+}
+
+template <int dim>
+std::vector<std::vector<DofIndex>>
+BoundaryTerms<dim>::multiplier_couplings() const
+{
+  std::vector<std::vector<DofIndex>> result;
+  for (const auto &region : boundary_regions)
+    if (region.condition->parameters.type == ConditionType::mean_support)
+      {
+        int last_cell = -1;
+        for (const auto &point : region.points)
+          {
+            if (last_cell == int(point.active_cell))
+              continue;
+            last_cell = point.active_cell;
+            auto indices
+              = unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes);
+            for (unsigned int m = 0; m < region.condition->components.size(); ++m)
+              indices.push_back(fields.multiplier(region.first_multiplier + m));
+            result.push_back(indices);
+          }
+      }
+  return result;
+}
+
+template <int dim>
+bool
+BoundaryTerms<dim>::is_symmetric() const
+{
+  return std::none_of(boundary_regions.begin(), boundary_regions.end(), [](const auto &region) {
+    return region.condition->parameters.type == ConditionType::displacement
+           && region.condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche;
+  });
+}
+
+template <int dim>
+bool
+BoundaryTerms<dim>::has_multipliers() const
+{
+  return n_multipliers(bodies) > 0;
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned int q,
+                             const Vector &u, const double time) const
+{
+  const auto            &point     = region.points[q];
+  const auto            &condition = *region.condition;
+  dealii::Tensor<1, dim> result;
+  switch (condition.parameters.type)
+    {
+    case ConditionType::traction:
+      return condition.vector(point.position, time);
+    case ConditionType::pressure:
+      return -condition.value(0, point.position, time) * point.normal;
+    case ConditionType::mean_support:
+    case ConditionType::point_support:
+      return result;
+    case ConditionType::springs:
+    case ConditionType::displacement:
+      break;
+    }
+  ShapeValues<dim>                    shape;
+  std::vector<dealii::Tensor<1, dim>> stress;
+  stress_vectors(region, point, shape, stress);
+  dealii::Tensor<1, dim> displacement, stress_vector;
+  const DofIndex        *nodes = fields.nodes(point.active_cell);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double value = u(nodes[a] + d);
+        displacement[d] += value * shape.value[a];
+        stress_vector += value * stress[a * dim + d];
+      }
+  const bool is_spring = condition.parameters.type == ConditionType::springs;
+  for (unsigned int k = 0; k < condition.components.size(); ++k)
+    {
+      const unsigned int c = condition.components[k];
+      if (is_spring)
+        result[c] = -condition.value(k, point.position, 0.) * displacement[c];
+      else
+        result[c]
+          = (condition.parameters.method == DisplacementMethod::penalty ? 0. : stress_vector[c])
+            - beta(region, q) * (displacement[c] - condition.value(k, point.position, time));
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<Resultant<dim>>
+BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
+{
+  std::vector<Resultant<dim>> result;
+  for (const auto &region : boundary_regions)
+    {
+      Resultant<dim> sum;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const dealii::Tensor<1, dim> force
+            = region.points[q].weight * traction(region, q, u, time);
+          sum.force += force;
+          sum.moment += moment_of<dim>(region.points[q].position, force);
+        }
+      sum.force  = dealii::Utilities::MPI::sum(sum.force, fields.grid.communicator());
+      sum.moment = dealii::Utilities::MPI::sum(sum.moment, fields.grid.communicator());
+      if (region.condition->parameters.type == ConditionType::mean_support)
+        for (unsigned int m = 0; m < region.condition->components.size(); ++m)
+          {
+            // The multiplier acts with weight -scale * area on the mean.
+            const DofIndex index = fields.multiplier(region.first_multiplier + m);
+            const double   force
+              = dealii::Utilities::MPI::sum(fields.owned().is_element(index) ? -u(index) : 0.,
+                                            fields.grid.communicator())
+                * multiplier_scale(region) * region.area;
+            if (region.condition->components[m] < dim)
+              sum.force[region.condition->components[m]] += force;
+          }
+      result.push_back(sum);
+    }
+  return result;
+}
+
+template <int dim>
+double
+BoundaryTerms<dim>::energy(const Vector &u, const double time) const
+{
+  double sum = 0.;
+  for (const auto &region : boundary_regions)
+    {
+      const auto &condition = *region.condition;
+      if (condition.parameters.type != ConditionType::springs
+          && condition.parameters.type != ConditionType::displacement)
+        continue;
+      std::vector<double> shape(fields.basis.n_nodes);
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto                  &point = region.points[q];
+          const dealii::Tensor<1, dim> t     = traction(region, q, u, time);
+          fields.basis.evaluate_values(point.unit_point, shape.data());
+          for (unsigned int k = 0; k < condition.components.size(); ++k)
+            {
+              const unsigned int c            = condition.components[k];
+              double             displacement = 0.;
+              for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+                displacement += shape[a] * u(fields.nodes(point.active_cell)[a] + c);
+              if (condition.parameters.type == ConditionType::springs)
+                sum -= 0.5 * point.weight * t[c] * displacement;
+              else
+                {
+                  // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e
+                  const double e = displacement - condition.value(k, point.position, time);
+                  sum -= point.weight * (t[c] * e + 0.5 * beta(region, q) * e * e);
+                }
+            }
+        }
+    }
+  return dealii::Utilities::MPI::sum(sum, fields.grid.communicator());
+}
+
+#define SCREE_INSTANTIATE(dim)                                            \
+  template class BoundaryTerms<dim>;                                      \
+  template dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &, \
+                                          const dealii::Tensor<1, dim> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

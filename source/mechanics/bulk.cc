@@ -1,0 +1,297 @@
+#include <scree/mechanics/bulk.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <map>
+
+namespace scree
+{
+template <int dim>
+Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+                const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor)
+    : fields(fields)
+    , quadrature(quadrature)
+    , bodies(bodies)
+    , gamma(ghost_penalty_factor)
+    , ghost_penalty(fields)
+{
+}
+
+template <int dim>
+typename Bulk<dim>::CellRule
+Bulk<dim>::rule(const unsigned int active_cell) const
+{
+  const ActiveCell &cell = fields.cells()[active_cell];
+  if (!cell.is_cut)
+    return {quadrature.whole_cell.points.data(), quadrature.whole_cell.weights.data(),
+            static_cast<unsigned int>(quadrature.whole_cell.points.size()),
+            std::pow(fields.grid.cells()[cell.grid_cell].size, dim)};
+  const unsigned int begin = quadrature.bulk.begin[active_cell];
+  return {quadrature.bulk.points.data() + begin, quadrature.bulk.weights.data() + begin,
+          quadrature.bulk.begin[active_cell + 1] - begin, 1.};
+}
+
+template <int dim>
+void
+Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const
+{
+  const ActiveCell  &cell   = fields.cells()[active_cell];
+  const double       scale  = 1. / fields.grid.cells()[cell.grid_cell].size;
+  const double       lambda = bodies[cell.body].material->lame_lambda();
+  const double       mu     = bodies[cell.body].material->shear_modulus();
+  const unsigned int n      = fields.basis.n_nodes;
+  const CellRule     points = rule(active_cell);
+
+  // products[i][j](a, b) = int d_i N_a d_j N_b, then the isotropic tensor once.
+  constexpr unsigned int n_max                            = max_nodes_per_cell<dim>;
+  double                 products[dim][dim][n_max][n_max] = {};
+  double                 gradient[dim][n_max];
+  ShapeValues<dim>       shape;
+  for (unsigned int q = 0; q < points.n_points; ++q)
+    {
+      fields.basis.evaluate(points.points[q], shape);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient[d][a] = shape.gradient[a][d] * scale;
+      const double weight = points.weights[q] * points.weight_scale;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int a = 0; a < n; ++a)
+            {
+              const double factor = weight * gradient[i][a];
+              for (unsigned int b = 0; b < n; ++b)
+                products[i][j][a][b] += factor * gradient[j][b];
+            }
+    }
+  matrix.reinit(n * dim, n * dim);
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        double trace = 0.;
+        for (unsigned int k = 0; k < dim; ++k)
+          trace += products[k][k][a][b];
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            matrix(a * dim + i, b * dim + j) = lambda * products[i][j][a][b]
+                                               + mu * products[j][i][a][b]
+                                               + (i == j ? mu * trace : 0.);
+      }
+}
+
+template <int dim>
+void
+Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
+{
+  const auto                &constraints = fields.hanging_constraints();
+  const unsigned int         n           = fields.basis.n_nodes;
+  dealii::FullMatrix<double> cell_matrix;
+  // Whole cells of one body and size share their matrix.
+  std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell    = fields.cells()[a];
+      const auto        indices = unknowns_of_nodes<dim>(fields.nodes(a), n);
+      if (cell.is_cut)
+        {
+          cell_stiffness(a, cell_matrix);
+          constraints.distribute_local_to_global(cell_matrix, indices, matrix);
+          continue;
+        }
+      auto &shared = whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
+      if (shared.empty())
+        cell_stiffness(a, shared);
+      constraints.distribute_local_to_global(shared, indices, matrix);
+    }
+
+  if (gamma == 0.)
+    return;
+  for (const GhostFace &face : ghost_penalty.faces())
+    {
+      const auto  &material = *bodies[fields.cells()[face.cell].body].material;
+      const double factor   = gamma * material.p_wave_modulus();
+      const auto   jumps    = ghost_penalty.matrix(face);
+      // Nodes that the two cells share appear once.
+      std::vector<DofIndex>     nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
+      std::vector<unsigned int> position(2 * n);
+      for (unsigned int i = 0; i < 2 * n; ++i)
+        {
+          const DofIndex node
+            = i < n ? fields.nodes(face.cell)[i] : fields.nodes(face.neighbor)[i - n];
+          const auto found = std::find(nodes.begin(), nodes.end(), node);
+          position[i]      = found - nodes.begin();
+          if (found == nodes.end())
+            nodes.push_back(node);
+        }
+      cell_matrix.reinit(nodes.size() * dim, nodes.size() * dim);
+      for (unsigned int i = 0; i < 2 * n; ++i)
+        for (unsigned int j = 0; j < 2 * n; ++j)
+          for (unsigned int d = 0; d < dim; ++d)
+            cell_matrix(position[i] * dim + d, position[j] * dim + d) += factor * jumps(i, j);
+      constraints.distribute_local_to_global(
+        cell_matrix, unknowns_of_nodes<dim>(nodes.data(), nodes.size()), matrix);
+    }
+}
+
+template <int dim>
+void
+Bulk<dim>::add_body_forces(Vector &loads, const double time) const
+{
+  const unsigned int     n = fields.basis.n_nodes;
+  std::vector<double>    shape(n);
+  dealii::Vector<double> cell_load(n * dim);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell  = fields.cells()[a];
+      const auto       &force = bodies[cell.body].body_force;
+      if (force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
+        continue;
+      const auto    &geometry = fields.grid.cells()[cell.grid_cell];
+      const CellRule points   = rule(a);
+      cell_load               = 0.;
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        {
+          fields.basis.evaluate_values(points.points[q], shape.data());
+          const dealii::Tensor<1, dim> b
+            = points.weights[q] * points.weight_scale
+              * force.vector(
+                geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]), time);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              cell_load(i * dim + d) += shape[i] * b[d];
+        }
+      fields.hanging_constraints().distribute_local_to_global(
+        cell_load, unknowns_of_nodes<dim>(fields.nodes(a), n), loads);
+    }
+}
+
+template <int dim>
+std::vector<std::vector<DofIndex>>
+Bulk<dim>::couplings() const
+{
+  const unsigned int                 n = fields.basis.n_nodes;
+  std::vector<std::vector<DofIndex>> result;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    result.emplace_back(fields.nodes(a), fields.nodes(a) + n);
+  for (const GhostFace &face : ghost_penalty.faces())
+    {
+      std::vector<DofIndex> nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
+      nodes.insert(nodes.end(), fields.nodes(face.neighbor), fields.nodes(face.neighbor) + n);
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      result.push_back(nodes);
+    }
+  return result;
+}
+
+template <int dim>
+BulkSample<dim>
+Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                  const Vector &u) const
+{
+  const ActiveCell &cell  = fields.cells()[active_cell];
+  const double      scale = 1. / fields.grid.cells()[cell.grid_cell].size;
+  ShapeValues<dim>  shape;
+  fields.basis.evaluate(unit_point, shape);
+  BulkSample<dim>        result;
+  dealii::Tensor<2, dim> gradient;
+  for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const double value = u(fields.nodes(active_cell)[i] + c);
+        result.displacement[c] += value * shape.value[i];
+        gradient[c] += value * scale * shape.gradient[i];
+      }
+  result.strain = symmetrize(gradient);
+  result.stress = bodies[cell.body].material->stress(result.strain);
+  if (dim == 2)
+    result.out_of_plane_stress = bodies[cell.body].material->out_of_plane_stress(result.strain);
+  return result;
+}
+
+template <int dim>
+std::vector<double>
+Bulk<dim>::strain_energy(const Vector &u) const
+{
+  std::vector<double> energy(bodies.size(), 0.);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule points = rule(a);
+      double         sum    = 0.;
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        {
+          const auto values = sample(a, points.points[q], u);
+          sum += 0.5 * points.weights[q] * (values.stress * values.strain);
+        }
+      energy[fields.cells()[a].body] += sum * points.weight_scale;
+    }
+  dealii::Utilities::MPI::sum(energy, fields.grid.communicator(), energy);
+  return energy;
+}
+
+template <int dim>
+double
+Bulk<dim>::ghost_energy(const Vector &u)
+{
+  const unsigned int n      = fields.basis.n_nodes;
+  double             energy = 0.;
+  if (gamma > 0.)
+    for (const GhostFace &face : ghost_penalty.faces())
+      {
+        const auto  &material = *bodies[fields.cells()[face.cell].body].material;
+        const auto   jumps    = ghost_penalty.matrix(face);
+        const double factor   = gamma * material.p_wave_modulus();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            dealii::Vector<double> nodal(2 * n);
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                nodal(i)     = u(fields.nodes(face.cell)[i] + d);
+                nodal(n + i) = u(fields.nodes(face.neighbor)[i] + d);
+              }
+            energy += 0.5 * factor * jumps.matrix_norm_square(nodal);
+          }
+      }
+  return dealii::Utilities::MPI::sum(energy, fields.grid.communicator());
+}
+
+template <int dim>
+std::vector<double>
+Bulk<dim>::volumes() const
+{
+  std::vector<double> volume(bodies.size(), 0.);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule points = rule(a);
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        volume[fields.cells()[a].body] += points.weights[q] * points.weight_scale;
+    }
+  dealii::Utilities::MPI::sum(volume, fields.grid.communicator(), volume);
+  return volume;
+}
+
+template <int dim>
+void
+Bulk<dim>::add_lumped_volumes(Vector &volumes, const std::vector<double> &factor_of_body) const
+{
+  const unsigned int     n = fields.basis.n_nodes;
+  dealii::Vector<double> lumped(n * dim);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const double factor = factor_of_body[fields.cells()[a].body];
+      if (factor == 0.)
+        continue;
+      // Equal shares: those of the basis functions are not all positive for degree 2.
+      const CellRule points = rule(a);
+      double         volume = 0.;
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        volume += points.weights[q] * points.weight_scale;
+      lumped = factor * volume / n;
+      fields.hanging_constraints().distribute_local_to_global(
+        lumped, unknowns_of_nodes<dim>(fields.nodes(a), n), volumes);
+    }
+}
+
+template class Bulk<2>;
+template class Bulk<3>;
+} // namespace scree

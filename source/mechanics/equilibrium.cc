@@ -1,0 +1,408 @@
+#include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/rigid_motion.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+/** Of E/L^2 times volume: the artificial mass that holds free bodies in the tangent. */
+constexpr double artificial_mass_factor = 1e-6;
+} // namespace
+
+template <int dim>
+Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                              Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
+                              ContactPoints<dim> &contact)
+    : fields(fields)
+    , bodies(bodies)
+    , bulk(bulk)
+    , boundary_terms(boundary_terms)
+    , contact(contact)
+    , supports(fields, bodies)
+{
+  set_up_matrices();
+  const MPI_Comm communicator = fields.grid.communicator();
+  for (Vector *vector : {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass,
+                         &accepted_u, &accepted_dead_loads, &accepted_reactions})
+    vector->reinit(fields.owned(), communicator);
+  ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
+  for (const auto &region : boundary_terms.regions())
+    accepted_tractions.emplace_back(region.points.size());
+  find_free_bodies();
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_up_matrices()
+{
+  const MPI_Comm communicator = fields.grid.communicator();
+  const auto     of_bulk      = bulk.couplings();
+  const auto     of_contact   = contact.couplings();
+  ghosted_dofs                = fields.relevant();
+  for (const auto &nodes : of_contact)
+    for (const DofIndex node : nodes)
+      ghosted_dofs.add_range(node, node + dim);
+  ghosted_dofs.compress();
+
+  dealii::DynamicSparsityPattern pattern(fields.n_dofs(), fields.n_dofs(), ghosted_dofs);
+  for (const auto *couplings : {&of_bulk, &of_contact})
+    for (const auto &nodes : *couplings)
+      fields.hanging_constraints().add_entries_local_to_global(
+        unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
+  for (const auto &unknowns : boundary_terms.multiplier_couplings())
+    fields.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
+  for (const DofIndex index : fields.owned())
+    pattern.add(index, index);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, fields.owned(), communicator,
+                                                     ghosted_dofs);
+  stiffness.reinit(fields.owned(), fields.owned(), pattern, communicator, true);
+  newton_matrix.reinit(fields.owned(), fields.owned(), pattern, communicator, true);
+
+  bulk.add_to_matrix(stiffness);
+  boundary_terms.add_to_matrix(stiffness);
+  stiffness.compress(dealii::VectorOperation::add);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::find_free_bodies()
+{
+  std::vector<double> factors(bodies.size(), 0.);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const RigidMotions<dim> motions(bodies[b]);
+      auto                    held = motions.no_resistance();
+      for (const auto &unknown : supports.unknowns())
+        if (supports.conditions()[unknown.support].first == b)
+          motions.add_resistance(unknown.position, unknown.component, 1., held);
+      for (const auto &region : boundary_terms.regions())
+        if (region.body == b && region.condition->parameters.type != ConditionType::traction
+            && region.condition->parameters.type != ConditionType::pressure)
+          for (const auto &point : region.points)
+            for (const unsigned int component : region.condition->components)
+              if (component < dim)
+                motions.add_resistance(point.position, component, 1., held);
+              else
+                motions.add_rotation_resistance(1., held);
+      const unsigned int n_free = motions.n_free(held, fields.grid.communicator());
+      if (n_free == 0)
+        continue;
+      free_motions.push_back({b, n_free});
+      factors[b] = artificial_mass_factor * bodies[b].material->young()
+                   / (motions.length() * motions.length());
+    }
+  bulk.add_lumped_volumes(artificial_mass, factors);
+  artificial_mass.compress(dealii::VectorOperation::add);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_time(const double new_time, Vector &u)
+{
+  time       = new_time;
+  dead_loads = 0.;
+  bulk.add_body_forces(dead_loads, time);
+  boundary_terms.add_loads(dead_loads, time, true, false);
+  dead_loads.compress(dealii::VectorOperation::add);
+  loads = 0.;
+  boundary_terms.add_loads(loads, time, false, true);
+  loads.compress(dealii::VectorOperation::add);
+  loads += dead_loads;
+  supports.set(u, time);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
+{
+  ghosted = u;
+  contact.evaluate(ghosted, history);
+  contact_forces = 0.;
+  contact.add_to_residual(contact_forces);
+  contact_forces.compress(dealii::VectorOperation::add);
+  stiffness.vmult(internal_forces, u);
+  r = loads;
+  r -= internal_forces;
+  r += contact_forces;
+  supports.set_zero(r);
+  for (const auto &line : fields.hanging_constraints().get_lines())
+    if (fields.owned().is_element(line.index))
+      r(line.index) = 0.;
+  r.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+const typename Equilibrium<dim>::Matrix &
+Equilibrium<dim>::tangent()
+{
+  newton_matrix.copy_from(stiffness);
+  contact.add_to_matrix(newton_matrix);
+  if (!free_motions.empty())
+    for (const DofIndex index : fields.owned())
+      if (artificial_mass(index) != 0.)
+        newton_matrix.add(index, index, artificial_mass(index));
+  newton_matrix.compress(dealii::VectorOperation::add);
+  eliminate_prescribed(newton_matrix);
+  return newton_matrix;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::eliminate_prescribed(Matrix &matrix) const
+{
+  // A vector with ones on prescribed unknowns, imported to the columns of this process.
+  const auto   &epetra = matrix.trilinos_matrix();
+  Epetra_Vector owned(epetra.RowMap()), columns(epetra.ColMap());
+  for (const auto &unknown : supports.unknowns())
+    owned[epetra.RowMap().LID(static_cast<int>(unknown.index))] = 1.;
+  const Epetra_Import import(epetra.ColMap(), epetra.RowMap());
+  columns.Import(owned, import, Insert);
+  for (int row = 0; row < epetra.NumMyRows(); ++row)
+    {
+      int     n_entries, *column;
+      double *value;
+      epetra.ExtractMyRowView(row, n_entries, value, column);
+      const int diagonal = epetra.ColMap().LID(epetra.RowMap().GID(row));
+      for (int i = 0; i < n_entries; ++i)
+        if (column[i] != diagonal && (owned[row] != 0. || columns[column[i]] != 0.))
+          value[i] = 0.;
+    }
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::is_symmetric() const
+{
+  bool slips = false;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    slips |= contact.responses()[i].status == ContactStatus::slip
+             && contact.pairs()[contact.points()[i].pair].law.law == ContactLaw::coulomb;
+  return boundary_terms.is_symmetric() && !boundary_terms.has_multipliers()
+         && dealii::Utilities::MPI::max(static_cast<unsigned int>(slips),
+                                        fields.grid.communicator())
+              == 0;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::reactions(Vector &result) const
+{
+  result = internal_forces;
+  result -= contact_forces;
+  result -= loads;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::force_scale() const
+{
+  Vector all(internal_forces);
+  reactions(all);
+  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr();
+  double held    = 0.;
+  for (const auto &unknown : supports.unknowns())
+    held += all(unknown.index) * all(unknown.index);
+  for (const auto &region : boundary_terms.regions())
+    if (region.condition->parameters.type == ConditionType::displacement)
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        held += std::pow(region.points[q].weight, 2)
+                * boundary_terms.traction(region, q, ghosted, time).norm_square();
+  squares += dealii::Utilities::MPI::sum(held, fields.grid.communicator());
+  return std::sqrt(squares);
+}
+
+template <int dim>
+std::vector<typename Equilibrium<dim>::Vector>
+Equilibrium<dim>::rigid_motions() const
+{
+  const unsigned int             n_motions = RigidMotions<dim>::n_motions;
+  std::vector<Vector>            result(bodies.size() * n_motions,
+                                        Vector(fields.owned(), fields.grid.communicator()));
+  std::vector<RigidMotions<dim>> motions;
+  for (const auto &body : bodies)
+    motions.emplace_back(body);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    {
+      const ActiveCell &cell     = fields.cells()[a];
+      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        {
+          const dealii::Point<dim> position
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
+          for (unsigned int m = 0; m < n_motions; ++m)
+            {
+              const auto value = motions[cell.body].motion(m, position);
+              for (unsigned int d = 0; d < dim; ++d)
+                if (fields.owned().is_element(fields.nodes(a)[i] + d))
+                  result[cell.body * n_motions + m](fields.nodes(a)[i] + d) = value[d];
+            }
+        }
+    }
+  for (Vector &motion : result)
+    {
+      motion.compress(dealii::VectorOperation::insert);
+      supports.set_zero(motion);
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned int>
+Equilibrium<dim>::bodies_not_held() const
+{
+  std::vector<unsigned int> result;
+  for (const FreeMotion &free : free_motions)
+    {
+      const RigidMotions<dim> motions(bodies[free.body]);
+      auto                    held = motions.no_resistance();
+      for (unsigned int i = 0; i < contact.points().size(); ++i)
+        {
+          const auto &point = contact.points()[i];
+          const auto &pair  = contact.pairs()[point.pair];
+          if ((pair.a != free.body && pair.b != free.body) || contact.responses()[i].pressure == 0.)
+            continue;
+          motions.add_resistance(point.position, point.normal, 1., held);
+          if (contact.responses()[i].status == ContactStatus::stick)
+            for (unsigned int d = 0; d < dim; ++d)
+              motions.add_resistance(point.position, d, 1., held);
+        }
+      // Supports and contact together must resist all motions.
+      for (const auto &unknown : supports.unknowns())
+        if (supports.conditions()[unknown.support].first == free.body)
+          motions.add_resistance(unknown.position, unknown.component, 1., held);
+      for (const auto &region : boundary_terms.regions())
+        if (region.body == free.body && region.condition->parameters.type != ConditionType::traction
+            && region.condition->parameters.type != ConditionType::pressure)
+          for (const auto &point : region.points)
+            for (const unsigned int component : region.condition->components)
+              if (component < dim)
+                motions.add_resistance(point.position, component, 1., held);
+      if (motions.n_free(held, fields.grid.communicator()) > 0)
+        result.push_back(free.body);
+    }
+  return result;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Vector
+Equilibrium<dim>::with_ghosts(const Vector &u) const
+{
+  Vector distributed(u);
+  fields.hanging_constraints().distribute(distributed);
+  Vector result(fields.owned(), ghosted_dofs, fields.grid.communicator());
+  result = distributed;
+  return result;
+}
+
+template <int dim>
+std::vector<Resultant<dim>>
+Equilibrium<dim>::resultants(const Vector &u) const
+{
+  std::vector<Resultant<dim>> result = boundary_terms.resultants(with_ghosts(u), time);
+  Vector                      forces(internal_forces);
+  reactions(forces);
+  for (const auto &resultant : supports.resultants(forces))
+    result.push_back(resultant);
+  return result;
+}
+
+template <int dim>
+std::vector<std::string>
+Equilibrium<dim>::condition_names() const
+{
+  std::vector<std::string> names;
+  for (const auto &region : boundary_terms.regions())
+    names.push_back(bodies[region.body].name + "." + region.condition->name);
+  for (const auto &[body, condition] : supports.conditions())
+    names.push_back(bodies[body].name + "." + condition->name);
+  return names;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::work_of_displacements(const Vector &with_ghost_values)
+{
+  double work = 0.;
+  Vector forces(internal_forces);
+  reactions(forces);
+  for (const auto &unknown : supports.unknowns())
+    {
+      const auto  &condition = *supports.conditions()[unknown.support].second;
+      const double motion    = condition.value(unknown.value, unknown.position, time)
+                            - condition.value(unknown.value, unknown.position, accepted_time);
+      work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
+    }
+  accepted_reactions = forces;
+  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
+    {
+      const auto &region    = boundary_terms.regions()[i];
+      const auto &condition = *region.condition;
+      if (condition.parameters.type != ConditionType::displacement)
+        continue;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto &point    = region.points[q];
+          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
+                  * (condition.vector(point.position, time)
+                     - condition.vector(point.position, accepted_time));
+          accepted_tractions[i][q] = traction;
+        }
+    }
+  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+}
+
+template <int dim>
+void
+Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
+{
+  const Vector with_ghost_values = with_ghosts(u);
+  Energies    &energies          = current_energies;
+  // Unknown by unknown with condensed hanging nodes: loads have no entries there.
+  Vector motion(u);
+  motion -= accepted_u;
+  accepted_dead_loads += dead_loads;
+  energies.external_work
+    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(with_ghost_values);
+  accepted_dead_loads = dead_loads;
+  accepted_u          = u;
+
+  double stored = 0., dissipated = 0.;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto &point    = contact.points()[i];
+      const auto &response = contact.responses()[i];
+      stored += 0.5 * point.weight
+                * (response.pressure * response.pressure / contact.eps_n(i)
+                   + response.tau.norm_square() / contact.eps_t(i));
+      if (response.status != ContactStatus::slip)
+        continue;
+      const auto trial
+        = old_history.tau[i]
+          - contact.eps_t(i)
+              * (contact.jumps()[i] - old_history.jump[i]
+                 - point.normal * (point.normal * (contact.jumps()[i] - old_history.jump[i])));
+      const double slip = (trial - response.tau).norm() / contact.eps_t(i);
+      dissipated += 0.5 * point.weight * (old_history.tau[i].norm() + response.tau.norm()) * slip;
+    }
+  const MPI_Comm communicator = fields.grid.communicator();
+  energies.contact            = dealii::Utilities::MPI::sum(stored, communicator);
+  energies.dissipation += dealii::Utilities::MPI::sum(dissipated, communicator);
+  energies.strain = 0.;
+  for (const double energy : bulk.strain_energy(with_ghost_values))
+    energies.strain += energy;
+  energies.ghost_penalty = bulk.ghost_energy(with_ghost_values);
+  energies.boundary      = boundary_terms.energy(with_ghost_values, time);
+  accepted_time          = time;
+}
+
+template class Equilibrium<2>;
+template class Equilibrium<3>;
+} // namespace scree

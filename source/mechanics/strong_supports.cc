@@ -1,0 +1,137 @@
+#include <scree/base/exceptions.h>
+#include <scree/mechanics/strong_supports.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <map>
+
+namespace scree
+{
+template <int dim>
+StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
+    : communicator(fields.grid.communicator())
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (const auto &condition : bodies[b].conditions)
+      if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
+        {
+          supports.emplace_back(b, &condition);
+          add_support(fields, bodies, supports.size() - 1);
+        }
+}
+
+template <int dim>
+bool
+StrongSupports<dim>::is_prescribed_at(const BoundaryCondition<dim> &condition,
+                                      const GridCell<dim>          &cell,
+                                      const dealii::Point<dim>     &unit_node,
+                                      const dealii::Point<dim>     &position) const
+{
+  if (condition.parameters.type == ConditionType::point_support)
+    return position.distance(condition.parameters.point) < 1e-6 * cell.size;
+  const unsigned int face = condition.box_face;
+  return cell.iterator->at_boundary(face) && unit_node[face / 2] == double(face % 2)
+         && condition.selects(position);
+}
+
+template <int dim>
+void
+StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                                 const unsigned int support)
+{
+  const auto &[body, condition] = supports[support];
+  std::map<DofIndex, const PrescribedUnknown<dim> *> known;
+  for (const auto &unknown : prescribed)
+    known[unknown.index] = &unknown;
+  std::map<DofIndex, PrescribedUnknown<dim>> found;
+  unsigned int                               n_selected    = 0;
+  double                                     contradiction = 0.;
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    if (fields.cells()[a].body == body)
+      {
+        const auto &cell = fields.grid.cells()[fields.cells()[a].grid_cell];
+        for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+          {
+            const dealii::Point<dim> unit_node = fields.basis.node(i);
+            const dealii::Point<dim> position
+              = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node);
+            if (!is_prescribed_at(*condition, cell, unit_node, position))
+              continue;
+            ++n_selected;
+            for (unsigned int k = 0; k < condition->components.size(); ++k)
+              {
+                const unsigned int component = condition->components[k];
+                const DofIndex     index     = fields.nodes(a)[i] + component;
+                if (!fields.owned().is_element(index)
+                    || fields.hanging_constraints().is_constrained(index))
+                  continue;
+                if (known.count(index))
+                  {
+                    const auto  &other = *known.at(index);
+                    const double value = condition->value(k, position, 1.);
+                    const double there
+                      = supports[other.support].second->value(other.value, position, 1.);
+                    contradiction = std::max(contradiction, std::abs(value - there));
+                    continue;
+                  }
+                found[index] = {index, component, support, k, position};
+              }
+          }
+      }
+  require(dealii::Utilities::MPI::sum(n_selected, communicator) > 0, condition->path,
+          condition->parameters.type == ConditionType::point_support
+            ? "there is no vertex of the body '" + bodies[body].name + "' at the given point"
+            : "the region selects nothing of the body '" + bodies[body].name + "'",
+          condition->parameters.type == ConditionType::point_support
+            ? "choose a vertex of a background cell inside the body"
+            : "check On and Where; does the body reach that face of the box?");
+  require(dealii::Utilities::MPI::max(contradiction, communicator) == 0., condition->path,
+          "another condition prescribes other values for the same displacement components",
+          "restrict one of them by Where or Components");
+  for (const auto &[index, unknown] : found)
+    prescribed.push_back(unknown);
+}
+
+template <int dim>
+void
+StrongSupports<dim>::set(Vector &u, const double time) const
+{
+  for (const auto &unknown : prescribed)
+    u(unknown.index)
+      = supports[unknown.support].second->value(unknown.value, unknown.position, time);
+  u.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
+StrongSupports<dim>::set_zero(Vector &r) const
+{
+  for (const auto &unknown : prescribed)
+    r(unknown.index) = 0.;
+  r.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+std::vector<Resultant<dim>>
+StrongSupports<dim>::resultants(const Vector &forces) const
+{
+  std::vector<Resultant<dim>> result(supports.size());
+  for (const auto &unknown : prescribed)
+    {
+      dealii::Tensor<1, dim> force;
+      force[unknown.component] = forces(unknown.index);
+      result[unknown.support].force += force;
+      result[unknown.support].moment += moment_of<dim>(unknown.position, force);
+    }
+  for (auto &resultant : result)
+    {
+      resultant.force  = dealii::Utilities::MPI::sum(resultant.force, communicator);
+      resultant.moment = dealii::Utilities::MPI::sum(resultant.moment, communicator);
+    }
+  return result;
+}
+
+template class StrongSupports<2>;
+template class StrongSupports<3>;
+} // namespace scree

@@ -1,0 +1,264 @@
+#include <scree/output/body_output.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/numerics/data_component_interpretation.h>
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+/** Patches made elsewhere, written by deal.II. */
+template <int dim>
+class Patches : public dealii::DataOutInterface<dim, dim>
+{
+public:
+  std::vector<dealii::DataOutBase::Patch<dim, dim>> patches;
+  std::vector<std::string>                          names;
+  std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
+    vectors;
+
+protected:
+  const std::vector<dealii::DataOutBase::Patch<dim, dim>> &get_patches() const override
+  {
+    return patches;
+  }
+  std::vector<std::string> get_dataset_names() const override
+  {
+    return names;
+  }
+  std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
+  get_nonscalar_data_ranges() const override
+  {
+    return vectors;
+  }
+};
+
+/** Clips a convex simplex {phi < 0} of linear phi; appends simplices. */
+template <int dim>
+void
+clip_simplex(const std::vector<dealii::Point<dim>> &vertices, const std::vector<double> &phi,
+             std::vector<std::vector<dealii::Point<dim>>> &result)
+{
+  std::vector<unsigned int> inside, outside;
+  for (unsigned int v = 0; v <= dim; ++v)
+    (phi[v] < 0. ? inside : outside).push_back(v);
+  if (inside.empty())
+    return;
+  if (outside.empty())
+    {
+      result.push_back(vertices);
+      return;
+    }
+  const auto between = [&](const unsigned int i, const unsigned int o) {
+    const double t = phi[i] / (phi[i] - phi[o]);
+    return dealii::Point<dim>(vertices[i] + t * (vertices[o] - vertices[i]));
+  };
+  if (inside.size() == 1)
+    {
+      std::vector<dealii::Point<dim>> simplex = {vertices[inside[0]]};
+      for (const unsigned int o : outside)
+        simplex.push_back(between(inside[0], o));
+      result.push_back(simplex);
+    }
+  else if (outside.size() == 1)
+    {
+      // A simplex without its tip: a prism over the inside face, dim simplices.
+      std::vector<dealii::Point<dim>> low, high;
+      for (const unsigned int i : inside)
+        {
+          low.push_back(vertices[i]);
+          high.push_back(between(i, outside[0]));
+        }
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          std::vector<dealii::Point<dim>> simplex(low.begin() + k, low.end());
+          simplex.insert(simplex.end(), high.begin(), high.begin() + k + 1);
+          result.push_back(simplex);
+        }
+    }
+  else
+    {
+      // 3D, two inside: a wedge with the ridge between them.
+      const std::vector<dealii::Point<dim>> low
+        = {vertices[inside[0]], between(inside[0], outside[0]), between(inside[0], outside[1])};
+      const std::vector<dealii::Point<dim>> high
+        = {vertices[inside[1]], between(inside[1], outside[0]), between(inside[1], outside[1])};
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          std::vector<dealii::Point<dim>> simplex(low.begin() + k, low.end());
+          simplex.insert(simplex.end(), high.begin(), high.begin() + k + 1);
+          result.push_back(simplex);
+        }
+    }
+}
+
+/** The simplices that divide the unit cube (Kuhn). */
+template <int dim>
+std::vector<std::vector<unsigned int>>
+kuhn_simplices()
+{
+  if (dim == 2)
+    return {{0, 1, 3}, {0, 3, 2}};
+  return {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+}
+} // namespace
+
+template <int dim>
+double
+von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz)
+{
+  dealii::SymmetricTensor<2, 3> full;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      full[i][j] = stress[i][j];
+  if (dim == 2)
+    full[2][2] = zz;
+  return std::sqrt(1.5) * deviator(full).norm();
+}
+
+template <int dim>
+BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                            const std::vector<Body<dim>> &bodies)
+    : fields(fields)
+{
+  std::array<double, max_nodes_per_cell<dim>> values;
+  std::vector<double>                         scaled(max_nodes_per_cell<dim>);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell = fields.cells()[a];
+      if (!cell.is_cut)
+        {
+          Piece piece{a, {}};
+          for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+            piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
+          pieces.push_back(piece);
+          continue;
+        }
+      level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values.data());
+      level_set_nodes.nudged(values.data(), fields.grid.cells()[cell.grid_cell].size,
+                             scaled.data());
+      cut_cell(a, scaled);
+    }
+}
+
+template <int dim>
+void
+BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<double> &phi)
+{
+  // Sub-cells between the nodes, each divided into simplices with linear phi.
+  const LagrangeBasis<dim> &basis = fields.basis;
+  const unsigned int        k     = basis.degree;
+  for (unsigned int sub = 0; sub < (dim == 2 ? k * k : k * k * k); ++sub)
+    {
+      std::vector<dealii::Point<dim>> corners;
+      std::vector<double>             corner_phi;
+      for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+        {
+          unsigned int node = 0, stride = 1, rest = sub;
+          for (unsigned int d = 0; d < dim; ++d, rest /= k, stride *= k + 1)
+            node += (rest % k + ((v >> d) & 1u)) * stride;
+          corners.push_back(basis.node(node));
+          corner_phi.push_back(phi[node]);
+        }
+      std::vector<std::vector<dealii::Point<dim>>> simplices;
+      for (const auto &simplex : kuhn_simplices<dim>())
+        {
+          std::vector<dealii::Point<dim>> vertices;
+          std::vector<double>             values;
+          for (const unsigned int v : simplex)
+            {
+              vertices.push_back(corners[v]);
+              values.push_back(corner_phi[v]);
+            }
+          clip_simplex<dim>(vertices, values, simplices);
+        }
+      for (const auto &vertices : simplices)
+        pieces.push_back({active_cell, vertices});
+    }
+}
+
+template <int dim>
+std::string
+BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
+                       const std::string &directory, const unsigned int number) const
+{
+  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+  Patches<dim> output;
+  for (unsigned int d = 0; d < dim; ++d)
+    output.names.push_back("displacement");
+  const std::vector<std::string> axes = {"x", "y", "z"};
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      output.names.push_back("stress_" + axes[i] + axes[j]);
+  if (dim == 2)
+    output.names.push_back("stress_zz");
+  output.names.push_back("von_mises");
+  for (unsigned int d = 0; d < dim; ++d)
+    output.names.push_back("principal_stress_" + std::to_string(d + 1));
+  output.names.push_back("body");
+  output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
+
+  for (const Piece &piece : pieces)
+    {
+      dealii::DataOutBase::Patch<dim, dim> patch;
+      const ActiveCell                    &cell     = fields.cells()[piece.active_cell];
+      const auto                          &geometry = fields.grid.cells()[cell.grid_cell];
+      const bool                           whole    = piece.vertices.size() != dim + 1;
+      if (!whole)
+        patch.reference_cell = dealii::ReferenceCells::get_simplex<dim>();
+      patch.n_subdivisions = 1;
+      patch.patch_index    = output.patches.size();
+      patch.data.reinit(output.names.size(), piece.vertices.size());
+      for (unsigned int v = 0; v < piece.vertices.size(); ++v)
+        {
+          patch.vertices[v]
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(piece.vertices[v]);
+          const auto   sample = bulk.sample(piece.active_cell, piece.vertices[v], u);
+          unsigned int row    = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            patch.data(row++, v) = sample.displacement[d];
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = i; j < dim; ++j)
+              patch.data(row++, v) = sample.stress[i][j];
+          if (dim == 2)
+            patch.data(row++, v) = sample.out_of_plane_stress;
+          patch.data(row++, v) = von_mises(sample.stress, sample.out_of_plane_stress);
+          for (const double principal : eigenvalues(sample.stress))
+            patch.data(row++, v) = principal;
+          patch.data(row++, v) = cell.body;
+        }
+      output.patches.push_back(patch);
+    }
+  const MPI_Comm    communicator = fields.grid.communicator();
+  const std::string name         = "bodies_" + dealii::Utilities::int_to_string(number, 4);
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+    {
+      std::ofstream file(directory + "/" + name + ".vtu");
+      output.write_vtu(file);
+      return name + ".vtu";
+    }
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  std::ofstream      file(directory + "/" + name + "." + std::to_string(rank) + ".vtu");
+  output.write_vtu(file);
+  if (rank == 0)
+    {
+      std::vector<std::string> names;
+      for (unsigned int p = 0; p < dealii::Utilities::MPI::n_mpi_processes(communicator); ++p)
+        names.push_back(name + "." + std::to_string(p) + ".vtu");
+      std::ofstream record(directory + "/" + name + ".pvtu");
+      output.write_pvtu_record(record, names);
+    }
+  return name + ".pvtu";
+}
+
+template class BodyOutput<2>;
+template class BodyOutput<3>;
+template double von_mises(const dealii::SymmetricTensor<2, 2> &, const double);
+template double von_mises(const dealii::SymmetricTensor<2, 3> &, const double);
+} // namespace scree

@@ -1,0 +1,224 @@
+#include <scree/mechanics/boundary_terms.h>
+#include <scree/output/contact_output.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+/** Names and values of the columns of a contact point. */
+template <int dim>
+std::vector<std::string>
+column_names()
+{
+  std::vector<std::string>       names = {"pair"};
+  const std::vector<std::string> axes  = {"x", "y", "z"};
+  for (const std::string prefix : {"", "normal_"})
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(prefix + axes[d]);
+  for (const std::string name : {"weight", "gap", "pressure"})
+    names.push_back(name);
+  for (const std::string prefix : {"tau_", "jump_"})
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(prefix + axes[d]);
+  names.push_back("status");
+  return names;
+}
+
+/** Status for output: a point without pressure is open. */
+template <int dim>
+ContactStatus
+shown_status(const ContactResponse<dim> &response)
+{
+  return response.pressure == 0. && response.tau.norm_square() == 0. ? ContactStatus::open
+                                                                     : response.status;
+}
+
+template <int dim>
+std::vector<double>
+columns(const ContactPoints<dim> &contact, const unsigned int i)
+{
+  const auto         &point    = contact.points()[i];
+  const auto         &response = contact.responses()[i];
+  std::vector<double> values   = {double(point.pair)};
+  const auto          append   = [&](const dealii::Tensor<1, dim> &vector) {
+    for (unsigned int d = 0; d < dim; ++d)
+      values.push_back(vector[d]);
+  };
+  append(point.position);
+  append(point.normal);
+  values.push_back(point.weight);
+  values.push_back(contact.gap(i));
+  values.push_back(response.pressure);
+  append(response.tau);
+  append(contact.jumps()[i]);
+  values.push_back(static_cast<unsigned int>(shown_status(response)));
+  return values;
+}
+} // namespace
+
+template <int dim>
+std::vector<ContactSummary<dim>>
+summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator)
+{
+  constexpr double                 none = std::numeric_limits<double>::max();
+  std::vector<ContactSummary<dim>> result(contact.pairs().size());
+  for (auto &summary : result)
+    summary.minimum_gap = none;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto                  &point    = contact.points()[i];
+      const auto                  &response = contact.responses()[i];
+      ContactSummary<dim>         &summary  = result[point.pair];
+      const dealii::Tensor<1, dim> force    = point.weight * response.traction(point.normal);
+      summary.force += force;
+      summary.moment += moment_of<dim>(point.position, force);
+      summary.minimum_gap        = std::min(summary.minimum_gap, contact.gap(i));
+      const ContactStatus status = shown_status(response);
+      (status == ContactStatus::open    ? summary.open
+       : status == ContactStatus::stick ? summary.stick
+                                        : summary.slip)
+        += point.weight;
+    }
+  using dealii::Utilities::MPI::sum;
+  for (auto &summary : result)
+    {
+      summary.force       = sum(summary.force, communicator);
+      summary.moment      = sum(summary.moment, communicator);
+      summary.minimum_gap = dealii::Utilities::MPI::min(summary.minimum_gap, communicator);
+      if (summary.minimum_gap == none)
+        summary.minimum_gap = std::numeric_limits<double>::quiet_NaN();
+      summary.max_penetration = std::max(0., -summary.minimum_gap);
+      summary.open            = sum(summary.open, communicator);
+      summary.stick           = sum(summary.stick, communicator);
+      summary.slip            = sum(summary.slip, communicator);
+    }
+  return result;
+}
+
+template <int dim>
+void
+write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+                  const std::string &directory, const unsigned int number)
+{
+  std::vector<std::vector<double>> rows;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    rows.push_back(columns(contact, i));
+  const auto gathered = dealii::Utilities::MPI::gather(communicator, rows);
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+    return;
+  rows.clear();
+  for (const auto &of_process : gathered)
+    rows.insert(rows.end(), of_process.begin(), of_process.end());
+  std::sort(rows.begin(), rows.end());
+  std::ofstream file(directory + "/contact_" + dealii::Utilities::int_to_string(number, 4)
+                     + ".csv");
+  file << std::setprecision(12);
+  const auto names = column_names<dim>();
+  for (unsigned int c = 0; c < names.size(); ++c)
+    file << (c == 0 ? "" : ",") << names[c];
+  file << '\n';
+  for (const auto &row : rows)
+    for (unsigned int c = 0; c < row.size(); ++c)
+      if (c == 0)
+        file << contact.pairs()[static_cast<unsigned int>(row[0])].name;
+      else
+        file << ',' << row[c] << (c + 1 == row.size() ? "\n" : "");
+}
+
+namespace
+{
+/** Points made elsewhere, written by deal.II. */
+template <int dim>
+class PointPatches : public dealii::DataOutInterface<0, dim>
+{
+public:
+  std::vector<dealii::DataOutBase::Patch<0, dim>> patches;
+  std::vector<std::string>                        names;
+
+protected:
+  const std::vector<dealii::DataOutBase::Patch<0, dim>> &get_patches() const override
+  {
+    return patches;
+  }
+  std::vector<std::string> get_dataset_names() const override
+  {
+    return names;
+  }
+  std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
+  get_nonscalar_data_ranges() const override
+  {
+    using namespace dealii::DataComponentInterpretation;
+    std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation>>
+      ranges;
+    for (unsigned int c = 0; c < names.size(); ++c)
+      if (c + dim <= names.size() && names[c].size() > 2
+          && names[c].substr(names[c].size() - 2) == "_x")
+        ranges.emplace_back(c, c + dim - 1, names[c].substr(0, names[c].size() - 2),
+                            component_is_part_of_vector);
+    return ranges;
+  }
+};
+} // namespace
+
+template <int dim>
+std::string
+write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+                  const std::string &directory, const unsigned int number)
+{
+  PointPatches<dim> output;
+  output.names = column_names<dim>();
+  // Position comes with the vertex.
+  output.names.erase(output.names.begin() + 1, output.names.begin() + 1 + dim);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      std::vector<double> values = columns(contact, i);
+      values.erase(values.begin() + 1, values.begin() + 1 + dim);
+      dealii::DataOutBase::Patch<0, dim> patch;
+      patch.vertices[0] = contact.points()[i].position;
+      patch.patch_index = i;
+      patch.data.reinit(values.size(), 1);
+      for (unsigned int c = 0; c < values.size(); ++c)
+        patch.data(c, 0) = values[c];
+      output.patches.push_back(patch);
+    }
+  const std::string  name    = "contact_" + dealii::Utilities::int_to_string(number, 4);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const std::string  piece   = name + (n_ranks == 1 ? "" : "." + std::to_string(rank)) + ".vtu";
+  std::ofstream      file(directory + "/" + piece);
+  output.write_vtu(file);
+  if (n_ranks == 1)
+    return piece;
+  if (rank == 0)
+    {
+      std::vector<std::string> names;
+      for (unsigned int p = 0; p < n_ranks; ++p)
+        names.push_back(name + "." + std::to_string(p) + ".vtu");
+      std::ofstream record(directory + "/" + name + ".pvtu");
+      output.write_pvtu_record(record, names);
+    }
+  return name + ".pvtu";
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template struct ContactSummary<dim>;                                                             \
+  template std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &,          \
+                                                              const MPI_Comm);                     \
+  template void write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \
+                                  const unsigned int);                                             \
+  template std::string write_contact_vtu(const ContactPoints<dim> &, const MPI_Comm,               \
+                                         const std::string &, const unsigned int);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,183 @@
+#include <scree/output/results.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+namespace scree
+{
+namespace
+{
+const std::vector<std::string> axes = {"x", "y", "z"};
+
+/** Column names of a force and its moment. */
+template <int dim>
+void
+add_resultant_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    names.push_back(prefix + ".force_" + axes[d]);
+  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+    names.push_back(prefix + ".moment_" + axes[d]);
+}
+
+template <int dim>
+void
+add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &moment,
+              std::vector<double> &values)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    values.push_back(force[d]);
+  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+    values.push_back(moment[d]);
+}
+} // namespace
+
+template <int dim>
+Results<dim>::Results(const std::string &directory, const Fields<dim> &fields,
+                      const LevelSetNodes<dim>                &level_set_nodes,
+                      const std::vector<Body<dim>>            &bodies,
+                      const std::vector<ProbeParameters<dim>> &probes)
+    : directory(directory)
+    , fields(fields)
+    , bodies(bodies)
+    , probes(probes)
+    , body_output(fields, level_set_nodes, bodies)
+    , is_first(dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
+{
+}
+
+template <int dim>
+void
+Results<dim>::open_history(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact)
+{
+  std::vector<std::string> names
+    = {"time", "step", "newton_iterations", "attempts", "linear_iterations", "residual"};
+  for (const ContactPair &pair : contact.pairs())
+    {
+      add_resultant_names<dim>(pair.name, names);
+      for (const std::string column : {"minimum_gap", "max_penetration", "open", "stick", "slip"})
+        names.push_back(pair.name + "." + column);
+    }
+  for (const std::string &condition : equilibrium.condition_names())
+    add_resultant_names<dim>(condition, names);
+  for (const auto &body : bodies)
+    names.push_back(body.name + ".volume");
+  for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
+                                   "external_work", "balance_error"})
+    names.push_back("energy." + energy);
+  history = std::make_unique<CsvTable>(directory + "/history.csv", names);
+}
+
+template <int dim>
+void
+Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                            const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
+                            const Vector &u)
+{
+  if (is_first && !history)
+    open_history(equilibrium, contact);
+  std::vector<double> values = {record.time,
+                                double(record.step),
+                                double(record.newton_iterations),
+                                double(record.attempts),
+                                double(record.linear_iterations),
+                                record.residual};
+  for (const auto &summary : summarise_contact(contact, fields.grid.communicator()))
+    {
+      add_resultant<dim>(summary.force, summary.moment, values);
+      for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
+                                 summary.stick, summary.slip})
+        values.push_back(value);
+    }
+  for (const auto &resultant : equilibrium.resultants(u))
+    add_resultant<dim>(resultant.force, resultant.moment, values);
+  for (const double volume : bulk.volumes())
+    values.push_back(volume);
+  const Energies &energies = equilibrium.energies();
+  for (const double energy :
+       {energies.strain, energies.ghost_penalty, energies.boundary, energies.contact,
+        energies.dissipation, energies.external_work, energies.balance_error()})
+    values.push_back(energy);
+  if (is_first)
+    history->add_row(values);
+}
+
+template <int dim>
+void
+Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
+{
+  body_records.emplace_back(record.time,
+                            body_output.write(bulk, ghosted_u, directory, record.step));
+  write_pvd("bodies.pvd", body_records);
+  for (const auto &probe : probes)
+    if (probe.n_points > 1)
+      {
+        const auto rows = sample(probe, body_index(probe.body), fields, bulk, ghosted_u);
+        if (!is_first)
+          continue;
+        CsvTable table(directory + "/line_" + probe.name + "_"
+                         + dealii::Utilities::int_to_string(record.step, 4) + ".csv",
+                       sample_columns<dim>());
+        for (const auto &row : rows)
+          table.add_row(row);
+      }
+}
+
+template <int dim>
+void
+Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &contact)
+{
+  const MPI_Comm communicator = fields.grid.communicator();
+  write_contact_csv(contact, communicator, directory, record.step);
+  contact_records.emplace_back(record.time,
+                               write_contact_vtu(contact, communicator, directory, record.step));
+  write_pvd("contact.pvd", contact_records);
+}
+
+template <int dim>
+void
+Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
+{
+  std::vector<std::string> names  = {"time"};
+  std::vector<double>      values = {record.time};
+  for (const auto &probe : probes)
+    if (probe.n_points == 1)
+      {
+        const auto row = sample(probe, body_index(probe.body), fields, bulk, ghosted_u).front();
+        values.insert(values.end(), row.begin(), row.end());
+        for (const std::string &column : sample_columns<dim>())
+          names.push_back(probe.name + "." + column);
+      }
+  if (!is_first || names.size() == 1)
+    return;
+  if (!probe_table)
+    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", names);
+  probe_table->add_row(values);
+}
+
+template <int dim>
+void
+Results<dim>::write_pvd(const std::string                                 &name,
+                        const std::vector<std::pair<double, std::string>> &records) const
+{
+  if (!is_first)
+    return;
+  std::ofstream file(directory + "/" + name);
+  dealii::DataOutBase::write_pvd_record(file, records);
+}
+
+template <int dim>
+unsigned int
+Results<dim>::body_index(const std::string &name) const
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].name == name)
+      return b;
+  AssertThrow(false, dealii::ExcMessage("a probe names an unknown body"));
+  return dealii::numbers::invalid_unsigned_int;
+}
+
+template class Results<2>;
+template class Results<3>;
+} // namespace scree

@@ -1,0 +1,132 @@
+#include <scree/solver/step_control.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+
+namespace scree
+{
+namespace
+{
+std::int64_t
+ticks_for(const double minimum_fraction)
+{
+  std::int64_t ticks = 1;
+  while (1. / static_cast<double>(2 * ticks) >= minimum_fraction)
+    ticks *= 2;
+  return ticks;
+}
+} // namespace
+
+void
+TimeParameters::declare(const ParameterSection &section)
+{
+  section.entry("End time", end_time, positive_number(),
+                "The run covers 0 <= t <= this; functions of the input may depend on t [time].");
+  section.entry("Steps", steps, dealii::Patterns::Integer(1),
+                "Number of nominal load steps, of equal length.");
+  section.entry("Minimum step fraction", minimum_step_fraction, dealii::Patterns::Double(1e-6, 1.),
+                "A step that does not converge is halved again and again, down to this fraction of "
+                "a nominal step.");
+  section.entry("Easy iterations", easy_iterations,
+                "After two steps in a row with this many Newton iterations at most, a shortened "
+                "step is doubled again.");
+}
+
+StepControl::StepControl(const TimeParameters &parameters)
+    : parameters(parameters)
+    , ticks_per_step(ticks_for(parameters.minimum_step_fraction))
+    , end_tick(static_cast<std::int64_t>(parameters.steps) * ticks_per_step)
+    , length(ticks_per_step)
+{
+  Assert(parameters.steps >= 1 && parameters.minimum_step_fraction > 0, dealii::ExcInternalError());
+}
+
+bool
+StepControl::finished() const
+{
+  return tick == end_tick;
+}
+
+double
+StepControl::time() const
+{
+  return time_of(tick);
+}
+
+double
+StepControl::next_time() const
+{
+  return time_of(tick + step_ticks());
+}
+
+double
+StepControl::step_size() const
+{
+  return next_time() - time();
+}
+
+double
+StepControl::step_fraction() const
+{
+  return static_cast<double>(step_ticks()) / static_cast<double>(ticks_per_step);
+}
+
+bool
+StepControl::at_nominal_time() const
+{
+  return tick % ticks_per_step == 0;
+}
+
+unsigned int
+StepControl::n_accepted() const
+{
+  return accepted;
+}
+
+unsigned int
+StepControl::n_rejected() const
+{
+  return rejected;
+}
+
+void
+StepControl::accept(const unsigned int newton_iterations)
+{
+  Assert(!finished(), dealii::ExcMessage("The end time is reached."));
+  tick += step_ticks();
+  ++accepted;
+  easy_in_a_row = newton_iterations <= parameters.easy_iterations ? easy_in_a_row + 1 : 0;
+  if (easy_in_a_row >= 2 && length < ticks_per_step)
+    {
+      length        = std::min(2 * length, ticks_per_step);
+      easy_in_a_row = 0;
+    }
+}
+
+bool
+StepControl::reject()
+{
+  Assert(!finished(), dealii::ExcMessage("The end time is reached."));
+  ++rejected;
+  easy_in_a_row = 0;
+  if (step_ticks() == 1)
+    return false;
+  length = step_ticks() / 2;
+  return true;
+}
+
+double
+StepControl::time_of(const std::int64_t tick) const
+{
+  return tick == end_tick
+           ? parameters.end_time
+           : parameters.end_time * static_cast<double>(tick) / static_cast<double>(end_tick);
+}
+
+std::int64_t
+StepControl::step_ticks() const
+{
+  return std::min(length, ticks_per_step - tick % ticks_per_step);
+}
+} // namespace scree

@@ -1,0 +1,184 @@
+// Stress is the derivative of the energy and the tangent that of the stress; values of plane
+// strain; what a parameter file may say.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/material/material.h>
+#include <scree/parameters/file.h>
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+MaterialParameters
+steel()
+{
+  MaterialParameters parameters;
+  parameters.young   = 210e3;
+  parameters.poisson = 0.3;
+  parameters.density = 7.8;
+  return parameters;
+}
+
+template <int dim>
+SymmetricTensor<2, dim>
+some_strain()
+{
+  SymmetricTensor<2, dim> strain;
+  for (unsigned int i = 0; i < SymmetricTensor<2, dim>::n_independent_components; ++i)
+    strain.access_raw_entry(i) = 1e-3 * (1 + i) * (i % 2 == 0 ? 1 : -0.7);
+  return strain;
+}
+
+/** Energy and stress are polynomials of degree 2 and 1: central differences are exact. */
+template <int dim>
+void
+check_derivatives()
+{
+  const auto   law    = make_material<dim>(steel());
+  const auto   strain = some_strain<dim>();
+  const double step   = 1e-3;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      {
+        SymmetricTensor<2, dim> change; // both (i,j) and (j,i) of the full tensor
+        change[i][j] = step;
+        const double by_energy
+          = (law->energy_density(strain + change) - law->energy_density(strain - change))
+            / (2 * step);
+        const double stress = law->stress(strain)[i][j];
+        EXPECT_NEAR(by_energy, i == j ? stress : 2 * stress, 1e-8 * 210e3);
+
+        const auto by_stress
+          = (law->stress(strain + change) - law->stress(strain - change)) / (2 * step);
+        EXPECT_NEAR((by_stress - law->tangent(strain) * change / step).norm(), 0, 1e-8 * 210e3);
+      }
+  EXPECT_EQ(law->energy_density(SymmetricTensor<2, dim>()), 0);
+}
+
+TEST(LinearElastic, StressAndTangentAreDerivatives)
+{
+  check_derivatives<2>();
+  check_derivatives<3>();
+}
+
+TEST(LinearElastic, UniaxialStressInPlaneStrain)
+{
+  // sigma_yy = s alone in the plane: eps_yy = s (1-nu^2)/E, eps_xx = -s nu (1+nu)/E, sigma_zz = nu
+  // s.
+  const double          E = 210e3, nu = 0.3, s = 100;
+  SymmetricTensor<2, 2> strain;
+  strain[0][0]      = -s * nu * (1 + nu) / E;
+  strain[1][1]      = s * (1 - nu * nu) / E;
+  const auto law    = make_material<2>(steel());
+  const auto stress = law->stress(strain);
+  EXPECT_NEAR(stress[0][0], 0, 1e-10);
+  EXPECT_NEAR(stress[1][1], s, 1e-10);
+  EXPECT_NEAR(stress[0][1], 0, 1e-10);
+  EXPECT_NEAR(law->out_of_plane_stress(strain), nu * s, 1e-10);
+  EXPECT_NEAR(law->energy_density(strain), s * strain[1][1] / 2, 1e-12);
+}
+
+TEST(LinearElastic, UniaxialStressInThreeDimensions)
+{
+  const double          E = 210e3, nu = 0.3, s = 100;
+  SymmetricTensor<2, 3> strain;
+  strain[0][0]      = s / E;
+  strain[1][1]      = -nu * s / E;
+  strain[2][2]      = -nu * s / E;
+  const auto stress = make_material<3>(steel())->stress(strain);
+  EXPECT_NEAR(stress[0][0], s, 1e-10);
+  EXPECT_NEAR(stress[1][1], 0, 1e-10);
+  EXPECT_NEAR(stress[2][2], 0, 1e-10);
+}
+
+TEST(LinearElastic, Moduli)
+{
+  const auto law = make_material<2>(steel());
+  EXPECT_NEAR(law->young(), 210e3, 1e-8);
+  EXPECT_NEAR(law->poisson(), 0.3, 1e-15);
+  EXPECT_NEAR(law->shear_modulus(), 210e3 / 2.6, 1e-9);
+  EXPECT_NEAR(law->lame_lambda(), 210e3 * 0.3 / (1.3 * 0.4), 1e-9);
+  // The stress of a confined bar.
+  SymmetricTensor<2, 2> strain;
+  strain[0][0] = 1;
+  EXPECT_NEAR(law->p_wave_modulus(), law->stress(strain)[0][0], 1e-8);
+  EXPECT_EQ(law->density(), 7.8);
+  EXPECT_TRUE(law->is_linear());
+}
+
+TEST(MaterialParameters, AreReadByName)
+{
+  ParameterFile file      = ParameterFile::from_string("subsection Materials\n"
+                                                            "  set Names = steel, rubber\n"
+                                                            "  subsection steel\n"
+                                                            "    set Young's modulus = 210e3\n"
+                                                            "    set Poisson's ratio = 0.3\n"
+                                                            "    set Density = 7.8\n"
+                                                            "  end\n"
+                                                            "  subsection rubber\n"
+                                                            "    set Young's modulus = 5\n"
+                                                            "    set Poisson's ratio = 0.49\n"
+                                                            "  end\n"
+                                                            "end\n");
+  auto          materials = declare_materials(file.root());
+  file.check();
+  ASSERT_EQ(materials.size(), 2u);
+  EXPECT_EQ(materials["steel"].law, "linear elastic");
+  EXPECT_EQ(materials["steel"].young, 210e3);
+  EXPECT_EQ(materials["steel"].density, 7.8);
+  EXPECT_EQ(materials["rubber"].poisson, 0.49);
+  EXPECT_EQ(materials["rubber"].density, 0);
+}
+
+/** The message of the errors in a section of one material called "a". */
+std::string
+message_for(const std::string &entries)
+{
+  ParameterFile file = ParameterFile::from_string(
+    "subsection Materials\nset Names = a\nsubsection a\n" + entries + "\nend\nend\n");
+  declare_materials(file.root());
+  try
+    {
+      file.check();
+    }
+  catch (const UserError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+TEST(MaterialParameters, AreChecked)
+{
+  const std::string nu = "set Poisson's ratio = 0.3\n", E = "set Young's modulus = 1\n";
+  EXPECT_EQ(message_for(nu + E), "");
+  EXPECT_NE(message_for(nu).find("\"Young's modulus\": must be set"), std::string::npos)
+    << message_for(nu);
+  EXPECT_NE(message_for(nu + "set Young's modulus = -1").find("greater than 0"), std::string::npos);
+  EXPECT_NE(message_for(E).find("Poisson's ratio"), std::string::npos);
+  for (const char *value : {"-1", "0.5", "0.7", "-3"})
+    EXPECT_NE(message_for(E + "set Poisson's ratio = " + value).find("less than 0.5"),
+              std::string::npos)
+      << message_for(E + "set Poisson's ratio = " + value);
+  EXPECT_NE(message_for(E + nu + "set Density = -1").find("Density"), std::string::npos);
+  EXPECT_NE(message_for(E + nu + "set Law = linear elastik").find("linear elastic"),
+            std::string::npos);
+}
+
+TEST(MaterialParameters, MakeMaterialRefusesUnsetConstants)
+{
+  EXPECT_THROW(make_material<2>(MaterialParameters()), UserError);
+  MaterialParameters incompressible = steel();
+  incompressible.poisson            = 0.5;
+  EXPECT_THROW(make_material<3>(incompressible), UserError);
+  MaterialParameters unknown = steel();
+  unknown.law                = "jelly";
+  EXPECT_THROW(make_material<3>(unknown), UserError);
+}
+} // namespace
+} // namespace scree

@@ -1,0 +1,410 @@
+// All solvers agree on the matrix of plane strain elasticity, in serial and in parallel; singular
+// matrices are recognised.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/parameters/file.h>
+#include <scree/solver/linear_solver.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+using Vector = LinearSolver::Vector;
+using Matrix = LinearSolver::Matrix;
+
+/** The unit square under its weight, with its boundary held or free; lambda = mu = modulus. */
+struct Square
+{
+  Square(const unsigned int level, const bool held, const MPI_Comm communicator,
+         const double modulus = 1)
+      : triangulation(communicator)
+      , fe(FE_Q<2>(1), 2)
+      , dof_handler(triangulation)
+  {
+    GridGenerator::hyper_cube(triangulation);
+    triangulation.refine_global(level);
+    dof_handler.distribute_dofs(fe);
+    const IndexSet owned = dof_handler.locally_owned_dofs();
+    IndexSet       relevant;
+    DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    AffineConstraints<double> constraints(relevant);
+    if (held)
+      DoFTools::make_zero_boundary_constraints(dof_handler, 0, constraints);
+    constraints.close();
+    DynamicSparsityPattern pattern(relevant);
+    DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
+    SparsityTools::distribute_sparsity_pattern(pattern, owned, communicator, relevant);
+    matrix.reinit(owned, owned, pattern, communicator);
+    x.reinit(owned, communicator);
+    b.reinit(owned, communicator);
+    assemble(constraints, modulus);
+  }
+
+  void assemble(const AffineConstraints<double> &constraints, const double modulus)
+  {
+    FEValues<2> fe_values(fe, QGauss<2>(2), update_values | update_gradients | update_JxW_values);
+    const unsigned int               n = fe.dofs_per_cell;
+    const FEValuesExtractors::Vector displacement(0);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          fe_values.reinit(cell);
+          FullMatrix<double>     cell_matrix(n, n);
+          dealii::Vector<double> cell_vector(n);
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const auto eps_i = fe_values[displacement].symmetric_gradient(i, q);
+                for (unsigned int j = 0; j < n; ++j)
+                  {
+                    const auto eps_j = fe_values[displacement].symmetric_gradient(j, q);
+                    cell_matrix(i, j) += modulus
+                                         * (trace(eps_i) * trace(eps_j) + 2 * (eps_i * eps_j))
+                                         * fe_values.JxW(q);
+                  }
+                cell_vector(i) -= fe_values[displacement].value(i, q)[1] * fe_values.JxW(q);
+              }
+          std::vector<types::global_dof_index> indices(n);
+          cell->get_dof_indices(indices);
+          constraints.distribute_local_to_global(cell_matrix, cell_vector, indices, matrix, b);
+        }
+    matrix.compress(VectorOperation::add);
+    b.compress(VectorOperation::add);
+  }
+
+  /** Translations and rotation. */
+  std::vector<Vector> rigid_motions() const
+  {
+    std::map<types::global_dof_index, Point<2>> points;
+    DoFTools::map_dofs_to_support_points(MappingQ1<2>(), dof_handler, points);
+    std::vector<Vector> modes(3, x);
+    const IndexSet      vertical
+      = DoFTools::extract_dofs(dof_handler, fe.component_mask(FEValuesExtractors::Scalar(1)));
+    for (const auto i : x.locally_owned_elements())
+      {
+        const bool is_y = vertical.is_element(i);
+        modes[0](i)     = is_y ? 0 : 1;
+        modes[1](i)     = is_y ? 1 : 0;
+        modes[2](i)     = is_y ? points.at(i)[0] : -points.at(i)[1];
+      }
+    for (auto &mode : modes)
+      mode.compress(VectorOperation::insert);
+    return modes;
+  }
+
+  parallel::distributed::Triangulation<2> triangulation;
+  FESystem<2>                             fe;
+  DoFHandler<2>                           dof_handler;
+  Matrix                                  matrix;
+  Vector                                  x, b;
+};
+
+LinearSolverParameters
+direct(const DirectPackage package)
+{
+  LinearSolverParameters parameters;
+  parameters.type           = LinearSolverType::direct;
+  parameters.direct_package = package;
+  return parameters;
+}
+
+LinearSolverParameters
+iterative(const KrylovMethod method)
+{
+  LinearSolverParameters parameters;
+  parameters.type          = LinearSolverType::iterative;
+  parameters.krylov_method = method;
+  parameters.tolerance     = 1e-11;
+  return parameters;
+}
+
+/** The work b . x of the solution, which does not depend on the numbering. */
+double
+work(Square &square, LinearSolver &solver, const std::string &method)
+{
+  const LinearSolveResult result = solver.solve(square.matrix, square.x, square.b, true);
+  EXPECT_EQ(result.method, method);
+  EXPECT_LE(result.relative_residual, 1e-10);
+  EXPECT_EQ(result.iterations > 0, method.find("AMG") != std::string::npos);
+  return square.b * square.x;
+}
+
+/** A matrix on one process from its rows. */
+Matrix
+dense(const std::vector<std::vector<double>> &rows)
+{
+  const unsigned int     n = rows.size();
+  DynamicSparsityPattern pattern(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      pattern.add(i, j);
+  Matrix matrix;
+  matrix.reinit(complete_index_set(n), complete_index_set(n), pattern, MPI_COMM_SELF);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      matrix.set(i, j, rows[i][j]);
+  matrix.compress(VectorOperation::insert);
+  return matrix;
+}
+
+Vector
+vector(const std::vector<double> &values)
+{
+  Vector v(complete_index_set(values.size()), MPI_COMM_SELF);
+  std::copy(values.begin(), values.end(), v.begin());
+  return v;
+}
+
+TEST(LinearSolver, AllSolversAgree)
+{
+  Square       square(5, true, MPI_COMM_SELF);
+  LinearSolver klu(direct(DirectPackage::klu), 2), mumps(direct(DirectPackage::mumps), 2),
+    cg(iterative(KrylovMethod::cg), 2), gmres(iterative(KrylovMethod::gmres), 2);
+  const double expected = work(square, klu, "KLU");
+  EXPECT_NEAR(work(square, mumps, "MUMPS") / expected, 1, 1e-12);
+  EXPECT_NEAR(work(square, cg, "CG+AMG") / expected, 1, 1e-9);
+  EXPECT_NEAR(work(square, gmres, "GMRES+AMG") / expected, 1, 1e-9);
+}
+
+TEST(LinearSolver, UnsymmetricMatrix)
+{
+  const Matrix A = dense({{4, 1, 0}, {-2, 5, 1}, {0, 3, 7}});
+  const Vector b = vector({6, 11, 27}); // of x = (1, 2, 3)
+  for (const auto &parameters : {direct(DirectPackage::klu), direct(DirectPackage::mumps),
+                                 iterative(KrylovMethod::automatic)})
+    {
+      Vector       x = vector({7, 7, 7});
+      LinearSolver solver(parameters, 2);
+      solver.solve(A, x, b, false);
+      for (unsigned int i = 0; i < 3; ++i)
+        EXPECT_NEAR(x(i), i + 1, 1e-9);
+    }
+}
+
+TEST(LinearSolver, NewValuesAreFactorisedAgain)
+{
+  Square       square(3, true, MPI_COMM_SELF);
+  const double expected = [&]() {
+    LinearSolver klu(direct(DirectPackage::klu), 2);
+    return work(square, klu, "KLU");
+  }();
+  for (const auto package : {DirectPackage::klu, DirectPackage::mumps})
+    {
+      LinearSolver      solver(direct(package), 2);
+      const std::string name = package == DirectPackage::klu ? "KLU" : "MUMPS";
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          EXPECT_NEAR(work(square, solver, name) / expected, std::pow(0.5, k), 1e-12);
+          square.matrix *= 2;
+        }
+      square.matrix *= 0.125;
+      // After a new pattern.
+      Square finer(4, true, MPI_COMM_SELF);
+      EXPECT_NEAR(work(finer, solver, name) / expected, 1, 0.05);
+    }
+}
+
+TEST(LinearSolver, AutomaticChoosesBySizeAndSymmetry)
+{
+  Square                 square(4, true, MPI_COMM_SELF); // 578 unknowns
+  LinearSolverParameters parameters;
+  const auto             method = [&](const bool symmetric, const unsigned int dimension) {
+    return LinearSolver(parameters, dimension)
+      .solve(square.matrix, square.x, square.b, symmetric)
+      .method;
+  };
+  EXPECT_EQ(method(true, 2), "KLU");
+  parameters.direct_up_to_2d = 577;
+  EXPECT_EQ(method(true, 2), "CG+AMG");
+  EXPECT_EQ(method(false, 2), "GMRES+AMG");
+  EXPECT_EQ(method(true, 3), "KLU");
+  parameters.direct_up_to_3d = 577;
+  EXPECT_EQ(method(true, 3), "CG+AMG");
+
+  Square larger(5, true, MPI_COMM_SELF); // 2178 unknowns
+  EXPECT_EQ(LinearSolver({}, 2).solve(larger.matrix, larger.x, larger.b, true).method, "MUMPS");
+  // An iteration that does not converge is replaced by a direct solver.
+  parameters.max_iterations = 3;
+  EXPECT_EQ(LinearSolver(parameters, 2).solve(larger.matrix, larger.x, larger.b, true).method,
+            "MUMPS");
+}
+
+TEST(LinearSolver, NearNullSpaceSavesIterations)
+{
+  Square       square(6, true, MPI_COMM_SELF);
+  LinearSolver solver(iterative(KrylovMethod::cg), 2);
+  const auto   translations = solver.solve(square.matrix, square.x, square.b, true).iterations;
+  solver.set_near_null_space(square.rigid_motions());
+  const auto rigid = solver.solve(square.matrix, square.x, square.b, true).iterations;
+  EXPECT_LE(translations, 25u);
+  EXPECT_LE(rigid, translations);
+}
+
+TEST(LinearSolver, ZeroRightHandSide)
+{
+  Square square(3, true, MPI_COMM_SELF);
+  for (const auto &parameters : {direct(DirectPackage::klu), iterative(KrylovMethod::cg)})
+    {
+      square.x = 1;
+      square.b = 0;
+      LinearSolver solver(parameters, 2);
+      EXPECT_EQ(solver.solve(square.matrix, square.x, square.b, true).relative_residual, 0);
+      EXPECT_EQ(square.x.l2_norm(), 0);
+    }
+}
+
+TEST(LinearSolver, SingularMatricesAreRecognised)
+{
+  const std::vector<std::vector<std::vector<double>>> matrices
+    = {{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}},          // a free chain
+       {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}},              // rank 2, to round-off
+       {{1, 0, 0}, {0, 0, 0}, {0, 0, 1}},              // a row of zeros
+       {{1e11, 1e11, 0}, {1e11, 1e11, 0}, {0, 0, 1}}}; // two equal rows
+  const EnumNames<DirectPackage> names
+    = {{DirectPackage::klu, "KLU "}, {DirectPackage::mumps, "MUMPS "}};
+  for (const auto package : {DirectPackage::klu, DirectPackage::mumps})
+    for (const auto &rows : matrices)
+      {
+        SCOPED_TRACE(name_of(names, package) + std::to_string(rows[0][0]));
+        const Matrix A = dense(rows);
+        Vector       x = vector({0, 0, 0});
+        LinearSolver solver(direct(package), 2);
+        // A right-hand side in the range (0 = (1, -2, 1) . b) or not: both are refused.
+        EXPECT_THROW(solver.solve(A, x, vector({1, 0, -1}), true), LinearSolverFailure);
+        EXPECT_THROW(solver.solve(A, x, vector({1, 2, 5}), true), LinearSolverFailure);
+        // The solver can go on with another matrix.
+        const Matrix good = dense({{2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
+        solver.solve(good, x, vector({2, 4, 6}), true);
+        EXPECT_NEAR(x(2), 3, 1e-14);
+      }
+}
+
+TEST(LinearSolver, FreeBodiesAreRecognised)
+{
+  for (const auto package : {DirectPackage::klu, DirectPackage::mumps})
+    for (const double modulus : {1e-6, 1., 2e11})
+      {
+        Square       square(4, false, MPI_COMM_SELF, modulus);
+        LinearSolver solver(direct(package), 2);
+        EXPECT_THROW(solver.solve(square.matrix, square.x, square.b, true), LinearSolverFailure);
+        // Without any load the matrix is as singular.
+        square.b = 0;
+        EXPECT_THROW(solver.solve(square.matrix, square.x, square.b, true), LinearSolverFailure);
+      }
+  Square       square(4, false, MPI_COMM_SELF);
+  LinearSolver cg(iterative(KrylovMethod::cg), 2);
+  EXPECT_THROW(cg.solve(square.matrix, square.x, square.b, true), LinearSolverFailure);
+}
+
+TEST(LinearSolver, BadScalingIsNotSingular)
+{
+  // Rows of very different size, and a soft spring that holds a chain.
+  const Matrix A = dense({{1e12, 0, 0}, {0, 1e-3, 0}, {0, 0, 1}});
+  const Matrix B = dense({{1 + 1e-9, -1, 0}, {-1, 2, -1}, {0, -1, 1}});
+  for (const auto package : {DirectPackage::klu, DirectPackage::mumps})
+    {
+      LinearSolver solver(direct(package), 2);
+      Vector       x = vector({0, 0, 0});
+      solver.solve(A, x, vector({1e12, 1e-3, 1}), true);
+      EXPECT_NEAR(x(1), 1, 1e-14);
+      solver.solve(B, x, vector({0, 0, 1e-9}), true);
+      EXPECT_NEAR(x(0), 1, 1e-5);
+    }
+}
+
+TEST(LinearSolver, ValuesThatAreNotFiniteAreRecognised)
+{
+  const double nan  = std::numeric_limits<double>::quiet_NaN();
+  const Matrix good = dense({{2, 0}, {0, 2}}), bad = dense({{2, 0}, {nan, 2}});
+  for (const auto &parameters : {direct(DirectPackage::klu), direct(DirectPackage::mumps),
+                                 iterative(KrylovMethod::cg), iterative(KrylovMethod::gmres)})
+    {
+      Vector       x = vector({0, 0});
+      LinearSolver solver(parameters, 2);
+      EXPECT_THROW(solver.solve(good, x, vector({1, nan}), true), LinearSolverFailure);
+      EXPECT_THROW(solver.solve(bad, x, vector({1, 1}), true), LinearSolverFailure);
+    }
+}
+
+TEST(LinearSolver, NoConvergenceIsAFailure)
+{
+  Square                 square(5, true, MPI_COMM_SELF);
+  LinearSolverParameters parameters = iterative(KrylovMethod::cg);
+  parameters.max_iterations         = 3;
+  LinearSolver solver(parameters, 2);
+  EXPECT_THROW(solver.solve(square.matrix, square.x, square.b, true), LinearSolverFailure);
+}
+
+TEST(LinearSolverMPI, EqualsSerial)
+{
+  Square       serial(6, true, MPI_COMM_SELF), distributed(6, true, MPI_COMM_WORLD);
+  LinearSolver reference(direct(DirectPackage::klu), 2);
+  const double expected = work(serial, reference, "KLU");
+
+  LinearSolver mumps(direct(DirectPackage::mumps), 2), klu(direct(DirectPackage::klu), 2),
+    cg(iterative(KrylovMethod::cg), 2), gmres(iterative(KrylovMethod::gmres), 2), chosen({}, 2);
+  EXPECT_NEAR(work(distributed, mumps, "MUMPS") / expected, 1, 1e-11);
+  EXPECT_NEAR(work(distributed, mumps, "MUMPS") / expected, 1, 1e-11);
+  EXPECT_NEAR(work(distributed, klu, "KLU") / expected, 1, 1e-11);
+  EXPECT_NEAR(work(distributed, chosen, "MUMPS") / expected, 1, 1e-11);
+  EXPECT_NEAR(work(distributed, cg, "CG+AMG") / expected, 1, 1e-9);
+  EXPECT_NEAR(work(distributed, gmres, "GMRES+AMG") / expected, 1, 1e-9);
+  cg.set_near_null_space(distributed.rigid_motions());
+  EXPECT_NEAR(work(distributed, cg, "CG+AMG") / expected, 1, 1e-9);
+}
+
+TEST(LinearSolverMPI, FreeBodiesAreRecognised)
+{
+  // 2178 unknowns are factorised by one process, 33282 by all.
+  for (const unsigned int level : {5, 7})
+    {
+      Square       square(level, false, MPI_COMM_WORLD);
+      LinearSolver solver(direct(DirectPackage::mumps), 2);
+      EXPECT_THROW(solver.solve(square.matrix, square.x, square.b, true), LinearSolverFailure);
+    }
+}
+
+TEST(LinearSolverParameters, AreReadAndChecked)
+{
+  ParameterFile          good = ParameterFile::from_string("set Type = iterative\n"
+                                                                    "set Iterative method = GMRES\n"
+                                                                    "set Direct package = MUMPS\n"
+                                                                    "subsection Multigrid\n"
+                                                                    "  set Smoother sweeps = 3\n"
+                                                                    "end\n");
+  LinearSolverParameters parameters;
+  parameters.declare(good.root());
+  good.check();
+  EXPECT_EQ(parameters.type, LinearSolverType::iterative);
+  EXPECT_EQ(parameters.krylov_method, KrylovMethod::gmres);
+  EXPECT_EQ(parameters.direct_package, DirectPackage::mumps);
+  EXPECT_EQ(parameters.amg_smoother_sweeps, 3u);
+
+  for (const char *wrong :
+       {"set Type = quick", "set Tolerance = 0", "set Tolerance = 2", "set Maximum iterations = 0"})
+    {
+      ParameterFile bad = ParameterFile::from_string(wrong);
+      LinearSolverParameters().declare(bad.root());
+      EXPECT_THROW(bad.check(), UserError) << wrong;
+    }
+}
+} // namespace
+} // namespace scree

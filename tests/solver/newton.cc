@@ -1,0 +1,263 @@
+// Newton's method on small systems: order of convergence, line searches, the ways to fail.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/parameters/file.h>
+#include <scree/solver/linear_solver.h>
+#include <scree/solver/newton.h>
+
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+using Vector = Newton::Vector;
+
+Vector
+vector(const std::vector<double> &values)
+{
+  Vector v(complete_index_set(values.size()), MPI_COMM_SELF);
+  std::copy(values.begin(), values.end(), v.begin());
+  return v;
+}
+
+/** One equation scale * f(u) = 0, r = -scale * f; the reference is scale. */
+Newton::Hooks
+scalar(const std::function<double(double)> &f, const std::function<double(double)> &derivative,
+       const double scale = 1)
+{
+  Newton::Hooks hooks;
+  hooks.residual = [=](const Vector &u, Vector &r) { r(0) = -scale * f(u(0)); };
+  hooks.solve    = [=](const Vector &u, const Vector &r, Vector &du) {
+    du(0) = r(0) / (scale * derivative(u(0)));
+  };
+  hooks.reference = [=]() { return scale; };
+  return hooks;
+}
+
+NewtonParameters
+with(const LineSearch line_search)
+{
+  NewtonParameters parameters;
+  parameters.line_search = line_search;
+  return parameters;
+}
+
+/** u0^2 + u1 = 3, u0 + u1^3 = 9 with the solution (1, 2). */
+Newton::Hooks
+two_equations()
+{
+  Newton::Hooks hooks;
+  hooks.residual = [](const Vector &u, Vector &r) {
+    r(0) = 3 - u(0) * u(0) - u(1);
+    r(1) = 9 - u(0) - u(1) * u(1) * u(1);
+  };
+  hooks.solve = [](const Vector &u, const Vector &r, Vector &du) {
+    const double a = 2 * u(0), b = 1, c = 1, d = 3 * u(1) * u(1), det = a * d - b * c;
+    du(0) = (d * r(0) - b * r(1)) / det;
+    du(1) = (a * r(1) - c * r(0)) / det;
+  };
+  hooks.reference = []() { return 10.; };
+  return hooks;
+}
+
+TEST(Newton, ConvergesQuadratically)
+{
+  std::vector<NewtonIteration> log;
+  Newton::Hooks                hooks = two_equations();
+  hooks.observe = [&](const NewtonIteration &iteration) { log.push_back(iteration); };
+  NewtonParameters parameters;
+  parameters.relative_tolerance = 1e-14;
+  Vector             u          = vector({1.3, 2.2});
+  const NewtonResult result     = Newton(parameters, hooks).solve(u);
+
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_NEAR(u(0), 1, 1e-13);
+  EXPECT_NEAR(u(1), 2, 1e-13);
+  EXPECT_LE(result.iterations, 6u);
+  EXPECT_EQ(result.residuals.size(), result.iterations + 1);
+  EXPECT_EQ(log.size(), result.residuals.size());
+  EXPECT_EQ(log.back().number, result.iterations);
+  EXPECT_EQ(log.back().tolerance, 1e-13);
+  // |r_(k+1)| <= C |r_k|^2 with one C while the residuals are above round-off.
+  unsigned int checked = 0;
+  for (std::size_t k = 0; k + 1 < result.residuals.size() && result.residuals[k + 1] > 1e-12; ++k)
+    {
+      EXPECT_LT(result.residuals[k + 1], 0.6 * std::pow(result.residuals[k], 2));
+      ++checked;
+    }
+  EXPECT_GE(checked, 3u);
+}
+
+TEST(Newton, LineSearchesRescueAtan)
+{
+  const auto f = [](double u) { return std::atan(u); };
+  const auto d = [](double u) { return 1 / (1 + u * u); };
+  for (const auto line_search : {LineSearch::none, LineSearch::residual, LineSearch::work})
+    {
+      Vector             u      = vector({3.});
+      const NewtonResult result = Newton(with(line_search), scalar(f, d)).solve(u);
+      EXPECT_EQ(result.converged(), line_search != LineSearch::none) << result.message;
+      if (result.converged())
+        {
+          EXPECT_NEAR(u(0), 0, 1e-9);
+          EXPECT_LE(result.iterations, 8u);
+        }
+    }
+}
+
+TEST(Newton, WorkLineSearchFindsTheContactOfASpring)
+{
+  // f = k u - load + eps <u - g>: the first step misses the contact by far, and from beyond it the
+  // tangent is right. Without the search the residual jumps by a factor of 1e3 first.
+  const double k = 1, load = 10, eps = 1e4, g = 0.1;
+  const auto   f = [=](double u) { return k * u - load + eps * std::max(u - g, 0.); };
+  const auto   d = [=](double u) { return k + (u > g ? eps : 0); };
+
+  double       largest[2];
+  unsigned int count = 0;
+  for (const auto line_search : {LineSearch::none, LineSearch::work})
+    {
+      Vector             u      = vector({0.});
+      const NewtonResult result = Newton(with(line_search), scalar(f, d)).solve(u);
+      ASSERT_TRUE(result.converged()) << result.message;
+      EXPECT_NEAR(u(0), (load + eps * g) / (k + eps), 1e-9);
+      EXPECT_LE(result.iterations, 5u);
+      largest[count++] = *std::max_element(result.residuals.begin(), result.residuals.end());
+    }
+  EXPECT_GT(largest[0], 1e4);
+  EXPECT_LE(largest[1], 10.);
+}
+
+TEST(Newton, LineSearchEndsACycle)
+{
+  // f = sign(u) sqrt|u| sends u to -u for ever.
+  const auto f = [](double u) { return std::copysign(std::sqrt(std::abs(u)), u); };
+  const auto d = [](double u) { return 0.5 / std::sqrt(std::abs(u)); };
+  for (const auto line_search : {LineSearch::none, LineSearch::residual, LineSearch::work})
+    {
+      Vector           u            = vector({1.});
+      NewtonParameters parameters   = with(line_search);
+      parameters.relative_tolerance = 1e-6;
+      const NewtonResult result     = Newton(parameters, scalar(f, d)).solve(u);
+      EXPECT_EQ(result.converged(), line_search != LineSearch::none) << result.message;
+      EXPECT_EQ(result.status == NewtonStatus::max_iterations, line_search == LineSearch::none);
+    }
+}
+
+TEST(Newton, StepsToUndefinedResidualsAreHalved)
+{
+  // log(u) is not a number at the end of the first step, u = 5 - 5 log 5 < 0.
+  const auto f = [](double u) { return std::log(u); };
+  const auto d = [](double u) { return 1 / u; };
+  for (const auto line_search : {LineSearch::none, LineSearch::residual, LineSearch::work})
+    {
+      Vector             u      = vector({5.});
+      const NewtonResult result = Newton(with(line_search), scalar(f, d)).solve(u);
+      EXPECT_TRUE(result.converged()) << result.message;
+      EXPECT_NEAR(u(0), 1, 1e-8);
+    }
+}
+
+TEST(Newton, UnitsDoNotMatter)
+{
+  const auto                f = [](double u) { return u + u * u * u - 1; };
+  const auto                d = [](double u) { return 1 + 3 * u * u; };
+  std::vector<unsigned int> iterations;
+  for (const double scale : {1e-9, 1., 1e12})
+    {
+      Vector u = vector({0.});
+      iterations.push_back(Newton(NewtonParameters(), scalar(f, d, scale)).solve(u).iterations);
+      EXPECT_NEAR(f(u(0)), 0, 1e-9);
+    }
+  EXPECT_EQ(iterations[0], iterations[1]);
+  EXPECT_EQ(iterations[2], iterations[1]);
+}
+
+TEST(Newton, NothingToDoTakesNoIteration)
+{
+  Newton::Hooks hooks       = scalar([](double u) { return u; }, [](double) { return 1.; });
+  hooks.reference           = []() { return 0.; };
+  Vector             u      = vector({0.});
+  const NewtonResult result = Newton(NewtonParameters(), hooks).solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::converged);
+  EXPECT_EQ(result.iterations, 0u);
+}
+
+TEST(Newton, RoundOffPlateauIsAccepted)
+{
+  // The residual never falls below 3e-12, a stand-in for the rounding of large internal forces.
+  const auto       f            = [](double u) { return std::abs(u - 1) < 3e-12 ? 3e-12 : u - 1; };
+  const auto       d            = [](double) { return 1.; };
+  NewtonParameters parameters   = with(LineSearch::none);
+  parameters.relative_tolerance = 1e-13;
+  Vector             u          = vector({0.});
+  const NewtonResult result     = Newton(parameters, scalar(f, d)).solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::converged_at_round_off) << result.message;
+  EXPECT_TRUE(result.converged());
+
+  // The same plateau far above the tolerance is a failure.
+  parameters.relative_tolerance = 1e-15;
+  u                             = vector({0.});
+  EXPECT_EQ(Newton(parameters, scalar(f, d)).solve(u).status, NewtonStatus::max_iterations);
+}
+
+TEST(Newton, FailuresAreTold)
+{
+  const auto one = [](double) { return 1.; };
+
+  Newton::Hooks hooks = scalar([](double u) { return u - 1; }, one);
+  hooks.solve         = [](const Vector &, const Vector &, Vector &) {
+    throw LinearSolverFailure("the matrix is singular");
+  };
+  Vector       u      = vector({0.});
+  NewtonResult result = Newton(NewtonParameters(), hooks).solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::linear_solver_failure);
+  EXPECT_EQ(result.message, "the matrix is singular");
+  EXPECT_EQ(result.iterations, 1u);
+
+  const auto nan = [](double) { return std::numeric_limits<double>::quiet_NaN(); };
+  result         = Newton(NewtonParameters(), scalar(nan, one)).solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::diverged);
+  EXPECT_EQ(result.iterations, 0u);
+
+  // u^2 + 1 has no zero.
+  u      = vector({0.7});
+  result = Newton(NewtonParameters(),
+                  scalar([](double u) { return u * u + 1; }, [](double u) { return 2 * u; }))
+             .solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::max_iterations);
+  EXPECT_EQ(result.iterations, 25u);
+  EXPECT_EQ(result.residuals.size(), 26u);
+
+  // exp(-u) - 1e3 u runs away without a line search when the tangent is wrong by sign and size.
+  u      = vector({1.});
+  result = Newton(with(LineSearch::none),
+                  scalar([](double u) { return u; }, [](double) { return -0.01; }))
+             .solve(u);
+  EXPECT_EQ(result.status, NewtonStatus::diverged);
+}
+
+TEST(NewtonParameters, AreReadAndChecked)
+{
+  ParameterFile good
+    = ParameterFile::from_string("set Line search = residual\nset Relative tolerance = 1e-12\n");
+  NewtonParameters parameters;
+  parameters.declare(good.root());
+  good.check();
+  EXPECT_EQ(parameters.line_search, LineSearch::residual);
+  EXPECT_EQ(parameters.relative_tolerance, 1e-12);
+
+  for (const char *wrong : {"set Line search = maybe", "set Relative tolerance = 0",
+                            "set Maximum iterations = 0", "set Absolute tolerance = -1"})
+    {
+      ParameterFile bad = ParameterFile::from_string(wrong);
+      NewtonParameters().declare(bad.root());
+      EXPECT_THROW(bad.check(), UserError) << wrong;
+    }
+}
+} // namespace
+} // namespace scree

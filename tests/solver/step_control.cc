@@ -1,0 +1,133 @@
+// The sequences of step lengths: halving, growing back, landing on the nominal times.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/parameters/file.h>
+#include <scree/solver/step_control.h>
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+constexpr unsigned int easy = 3, hard = 20;
+
+TimeParameters
+times(const double end_time, const unsigned int steps, const double minimum_fraction)
+{
+  TimeParameters parameters;
+  parameters.end_time              = end_time;
+  parameters.steps                 = steps;
+  parameters.minimum_step_fraction = minimum_fraction;
+  return parameters;
+}
+
+TEST(StepControl, NominalStepsEndExactly)
+{
+  StepControl control(times(0.7, 7, 1. / 64));
+  for (unsigned int k = 1; k <= 7; ++k)
+    {
+      ASSERT_FALSE(control.finished());
+      EXPECT_EQ(control.step_fraction(), 1);
+      EXPECT_NEAR(control.next_time(), 0.1 * k, 1e-15);
+      EXPECT_NEAR(control.step_size(), 0.1, 1e-15);
+      control.accept(easy);
+      EXPECT_TRUE(control.at_nominal_time());
+    }
+  EXPECT_TRUE(control.finished());
+  EXPECT_EQ(control.time(), 0.7);
+  EXPECT_EQ(control.n_accepted(), 7u);
+}
+
+TEST(StepControl, HalvesAndGrowsBackAfterTwoEasySteps)
+{
+  StepControl control(times(3, 3, 1. / 8));
+  EXPECT_TRUE(control.reject());
+  EXPECT_TRUE(control.reject());
+  std::vector<double> fractions, ends;
+  while (!control.finished())
+    {
+      fractions.push_back(control.step_fraction());
+      control.accept(easy);
+      ends.push_back(control.time());
+    }
+  // Two quarters; the wish for a half is met (1/2 to 1), and the second half step grows to one.
+  EXPECT_EQ(fractions, (std::vector<double>{0.25, 0.25, 0.5, 0.5, 0.5, 1}));
+  EXPECT_EQ(ends, (std::vector<double>{0.25, 0.5, 1, 1.5, 2, 3}));
+  EXPECT_EQ(control.n_rejected(), 2u);
+}
+
+TEST(StepControl, HardStepsDoNotGrow)
+{
+  StepControl control(times(2, 2, 1. / 8));
+  control.reject();
+  for (unsigned int k = 0; k < 4; ++k)
+    {
+      EXPECT_EQ(control.step_fraction(), 0.5);
+      control.accept(k % 2 == 0 ? easy : hard);
+    }
+  EXPECT_TRUE(control.finished());
+}
+
+TEST(StepControl, StepsThatWouldPassANominalTimeAreShortened)
+{
+  StepControl control(times(2, 2, 1. / 8));
+  control.reject();
+  control.reject();
+  control.reject();
+  control.accept(easy); // 1/8
+  control.accept(easy); // 2/8, the length becomes 1/4
+  control.accept(easy); // 4/8
+  EXPECT_TRUE(control.reject());
+  EXPECT_EQ(control.step_fraction(), 1. / 8);
+  control.accept(easy); // 5/8
+  control.accept(easy); // 6/8, the length becomes 1/4
+  control.accept(easy); // 8/8
+  EXPECT_EQ(control.time(), 1);
+  EXPECT_TRUE(control.at_nominal_time());
+  control.accept(easy); // 1 + 2/8, the length becomes 1/2
+  control.accept(easy); // 1 + 6/8
+  EXPECT_EQ(control.time(), 1.75);
+  EXPECT_EQ(control.step_fraction(), 0.25);
+  control.accept(easy);
+  EXPECT_TRUE(control.finished());
+}
+
+TEST(StepControl, GivesUpAtTheMinimum)
+{
+  StepControl control(times(1, 1, 0.25));
+  EXPECT_TRUE(control.reject());
+  EXPECT_TRUE(control.reject());
+  EXPECT_EQ(control.step_fraction(), 0.25);
+  EXPECT_FALSE(control.reject());
+  EXPECT_EQ(control.n_rejected(), 3u);
+
+  // 0.3 is not a power of two: no step is smaller than it.
+  StepControl other(times(1, 1, 0.3));
+  EXPECT_TRUE(other.reject());
+  EXPECT_FALSE(other.reject());
+
+  StepControl never(times(1, 1, 1));
+  EXPECT_FALSE(never.reject());
+}
+
+TEST(TimeParameters, AreReadAndChecked)
+{
+  ParameterFile  good = ParameterFile::from_string("set End time = 2.5\nset Steps = 4\n");
+  TimeParameters parameters;
+  parameters.declare(good.root());
+  good.check();
+  EXPECT_EQ(parameters.end_time, 2.5);
+  EXPECT_EQ(parameters.steps, 4u);
+
+  for (const char *wrong :
+       {"set Steps = 0", "set End time = 0", "set Minimum step fraction = 2", "set Steps = -3"})
+    {
+      ParameterFile bad = ParameterFile::from_string(wrong);
+      TimeParameters().declare(bad.root());
+      EXPECT_THROW(bad.check(), UserError) << wrong;
+    }
+}
+} // namespace
+} // namespace scree
