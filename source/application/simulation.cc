@@ -266,12 +266,15 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
     const auto solved = linear_solver->solve(matrix, du, r, equilibrium->is_symmetric());
     record.linear_iterations += solved.iterations;
   };
-  hooks.reference = [&]() { return equilibrium->force_scale(); };
-  hooks.observe   = [&](const NewtonIteration &iteration) {
+  hooks.reference = [&]() {
+    return std::max(equilibrium->force_scale(),
+                    equilibrium->round_off() / parameters.newton.relative_tolerance);
+  };
+  hooks.observe = [&](const NewtonIteration &iteration) {
     log.progress(step_control.time() / parameters.time.end_time,
-                   "step " + std::to_string(record.step) + ", iteration "
-                     + std::to_string(iteration.number) + ", residual "
-                     + short_number(iteration.residual) + " of " + short_number(iteration.tolerance));
+                 "step " + std::to_string(record.step) + ", iteration "
+                   + std::to_string(iteration.number) + ", residual "
+                   + short_number(iteration.residual) + " of " + short_number(iteration.tolerance));
   };
   equilibrium->set_time(time, u);
   return Newton(parameters.newton, hooks).solve(u);

@@ -69,7 +69,7 @@ typename CutCellRules<dim>::Rules
 CutCellRules<dim>::rules(const double *scaled, const double cell_size)
 {
   level_set->nodal = scaled;
-  generator.generate(*level_set, dealii::BoundingBox<dim>());
+  generator.generate(*level_set, dealii::create_unit_bounding_box<dim>());
   const double volume = std::pow(cell_size, dim), area = std::pow(cell_size, dim - 1);
   Rules        result;
   const auto  &inside = generator.get_inside_quadrature();
@@ -93,7 +93,7 @@ CellPoints<dim>
 CutCellRules<dim>::face_rule(const double *scaled, const double cell_size, const unsigned int face)
 {
   level_set->nodal = scaled;
-  face_generator->generate(*level_set, dealii::BoundingBox<dim>(), face);
+  face_generator->generate(*level_set, dealii::create_unit_bounding_box<dim>(), face);
   const double       area      = std::pow(cell_size, dim - 1);
   const auto        &inside    = face_generator->get_inside_quadrature();
   const unsigned int direction = face / 2;

@@ -52,7 +52,7 @@ Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
   using Content = std::vector<std::pair<unsigned int, bool>>;
   dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
     grid.triangulation(),
-    [&](const auto &cell) -> std_cxx17::optional<Content> {
+    [&](const auto &cell) -> dealii::std_cxx17::optional<Content> {
       return bodies_of_cell[grid.local_index(*cell)];
     },
     [&](const auto &cell, const Content &content) {

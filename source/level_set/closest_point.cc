@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -26,13 +27,23 @@ tangential_step(const LevelSetExpansion<dim> &phi, const double lambda,
   return step * r > 0 && step.norm_square() < 16 * r.norm_square() ? step : r;
 }
 
+// A distance of `fraction` spacings, or what rounding of the coordinates leaves of it.
+template <int dim>
+double
+normal_tolerance(const Lattice<dim> &lattice, const double fraction)
+{
+  const auto &[lower, upper] = lattice.box().get_boundary_points();
+  const double rounding      = 8 * std::numeric_limits<double>::epsilon();
+  return std::max(fraction * lattice.spacing(), rounding * std::max(lower.norm(), upper.norm()));
+}
+
 // Plain gradient projection from `start`.
 template <int dim>
 ClosestPoint<dim>
 project_from(const Lattice<dim> &lattice, const unsigned int degree, const Point<dim> &start)
 {
   constexpr unsigned int max_iterations = 20;
-  const double           tolerance      = 1e-13 * lattice.spacing();
+  const double           tolerance      = normal_tolerance(lattice, 1e-13);
 
   ClosestPoint<dim> result{start, {}, false};
   for (unsigned int iteration = 0; iteration <= max_iterations; ++iteration)
@@ -42,7 +53,7 @@ project_from(const Lattice<dim> &lattice, const unsigned int degree, const Point
       if (!(norm > 0))
         return result;
       result.normal    = gradient / norm;
-      result.converged = std::abs(value) < tolerance * std::max(1., norm);
+      result.converged = std::abs(value) < tolerance * norm;
       if (result.converged)
         return result;
       result.point -= value / norm * result.normal;
@@ -89,6 +100,7 @@ newton_search(const Lattice<dim> &lattice, const Point<dim> &x, const unsigned i
 {
   constexpr unsigned int max_iterations = 12;
   const double           spacing        = lattice.spacing();
+  const double           tolerance      = normal_tolerance(lattice, 1e-12);
 
   ClosestPoint<dim> result{start, {}, false};
   for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
@@ -97,8 +109,7 @@ newton_search(const Lattice<dim> &lattice, const Point<dim> &x, const unsigned i
       if (!steps.valid)
         break;
       result.normal = steps.normal;
-      if (std::abs(steps.to_contour) < 1e-12 * spacing
-          && steps.residual < tangential_tolerance * spacing)
+      if (std::abs(steps.to_contour) < tolerance && steps.residual < tangential_tolerance * spacing)
         {
           result.converged = true;
           break;

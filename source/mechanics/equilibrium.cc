@@ -1,11 +1,12 @@
 #include <scree/mechanics/equilibrium.h>
-#include <scree/mechanics/rigid_motion.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
+#include <Epetra_Vector.h>
 #include <cmath>
 
 namespace scree
@@ -68,6 +69,35 @@ Equilibrium<dim>::set_up_matrices()
   bulk.add_to_matrix(stiffness);
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
+  for (const DofIndex index : fields.owned())
+    largest_stiffness = std::max(largest_stiffness, std::abs(stiffness.diag_element(index)));
+  largest_stiffness = dealii::Utilities::MPI::max(largest_stiffness, communicator);
+}
+
+template <int dim>
+dealii::FullMatrix<double>
+Equilibrium<dim>::resistance_of_supports(const unsigned int       body,
+                                         const RigidMotions<dim> &motions) const
+{
+  dealii::FullMatrix<double> held = motions.no_resistance();
+  for (const auto &unknown : supports.unknowns())
+    if (supports.conditions()[unknown.support].first == body)
+      motions.add_resistance(unknown.position, unknown.component, 1., held);
+  for (const auto &region : boundary_terms.regions())
+    {
+      const ConditionType type = region.condition->parameters.type;
+      if (region.body != body || type == ConditionType::traction || type == ConditionType::pressure)
+        continue;
+      for (const auto &point : region.points)
+        for (const unsigned int component : region.condition->components)
+          {
+            if (component < dim)
+              motions.add_resistance(point.position, component, 1., held);
+            else
+              motions.add_rotation_resistance(1., held);
+          }
+    }
+  return held;
 }
 
 template <int dim>
@@ -77,21 +107,9 @@ Equilibrium<dim>::find_free_bodies()
   std::vector<double> factors(bodies.size(), 0.);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const RigidMotions<dim> motions(bodies[b]);
-      auto                    held = motions.no_resistance();
-      for (const auto &unknown : supports.unknowns())
-        if (supports.conditions()[unknown.support].first == b)
-          motions.add_resistance(unknown.position, unknown.component, 1., held);
-      for (const auto &region : boundary_terms.regions())
-        if (region.body == b && region.condition->parameters.type != ConditionType::traction
-            && region.condition->parameters.type != ConditionType::pressure)
-          for (const auto &point : region.points)
-            for (const unsigned int component : region.condition->components)
-              if (component < dim)
-                motions.add_resistance(point.position, component, 1., held);
-              else
-                motions.add_rotation_resistance(1., held);
-      const unsigned int n_free = motions.n_free(held, fields.grid.communicator());
+      const RigidMotions<dim>    motions(bodies[b]);
+      dealii::FullMatrix<double> held   = resistance_of_supports(b, motions);
+      const unsigned int         n_free = motions.n_free(held, fields.grid.communicator());
       if (n_free == 0)
         continue;
       free_motions.push_back({b, n_free});
@@ -122,7 +140,8 @@ template <int dim>
 void
 Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
 {
-  ghosted = u;
+  ghosted           = u;
+  displacement_norm = u.l2_norm();
   contact.evaluate(ghosted, history);
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
@@ -219,6 +238,13 @@ Equilibrium<dim>::force_scale() const
 }
 
 template <int dim>
+double
+Equilibrium<dim>::round_off() const
+{
+  return 1e-15 * largest_stiffness * displacement_norm;
+}
+
+template <int dim>
 std::vector<typename Equilibrium<dim>::Vector>
 Equilibrium<dim>::rigid_motions() const
 {
@@ -261,7 +287,7 @@ Equilibrium<dim>::bodies_not_held() const
   for (const FreeMotion &free : free_motions)
     {
       const RigidMotions<dim> motions(bodies[free.body]);
-      auto                    held = motions.no_resistance();
+      auto                    held = resistance_of_supports(free.body, motions);
       for (unsigned int i = 0; i < contact.points().size(); ++i)
         {
           const auto &point = contact.points()[i];
@@ -273,17 +299,6 @@ Equilibrium<dim>::bodies_not_held() const
             for (unsigned int d = 0; d < dim; ++d)
               motions.add_resistance(point.position, d, 1., held);
         }
-      // Supports and contact together must resist all motions.
-      for (const auto &unknown : supports.unknowns())
-        if (supports.conditions()[unknown.support].first == free.body)
-          motions.add_resistance(unknown.position, unknown.component, 1., held);
-      for (const auto &region : boundary_terms.regions())
-        if (region.body == free.body && region.condition->parameters.type != ConditionType::traction
-            && region.condition->parameters.type != ConditionType::pressure)
-          for (const auto &point : region.points)
-            for (const unsigned int component : region.condition->components)
-              if (component < dim)
-                motions.add_resistance(point.position, component, 1., held);
       if (motions.n_free(held, fields.grid.communicator()) > 0)
         result.push_back(free.body);
     }

@@ -6,6 +6,7 @@
 #include <deal.II/numerics/data_component_interpretation.h>
 
 #include <cmath>
+#include <fstream>
 
 namespace scree
 {

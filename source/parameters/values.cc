@@ -58,6 +58,12 @@ describe(const std::vector<std::string> &)
 }
 
 TypeDescription
+describe(const std::vector<unsigned int> &)
+{
+  return {"a list of integers >= 0 separated by commas", ","};
+}
+
+TypeDescription
 describe(const std::vector<double> &)
 {
   return {"a list of numbers separated by commas", ","};
@@ -356,6 +362,7 @@ INSTANTIATE(unsigned int)
 INSTANTIATE(double)
 INSTANTIATE(std::string)
 INSTANTIATE(std::vector<std::string>)
+INSTANTIATE(std::vector<unsigned int>)
 INSTANTIATE(std::vector<double>)
 INSTANTIATE(Point<2>)
 INSTANTIATE(Point<3>)

@@ -5,6 +5,7 @@
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/geometry/simple_shapes.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -26,7 +27,7 @@ frame(const double spacing, const double extent)
       upper[d] = extent;
     }
   result.origin = lower;
-  result.box    = BoundingBox<dim>({ lower, upper });
+  result.box    = BoundingBox<dim>({lower, upper});
   return result;
 }
 
@@ -65,20 +66,20 @@ TEST(LevelSetFromShape, CoversTheShapeWithMarginAndCompleteCells)
 
 TEST(LevelSetFromShape, IsClippedByTheFrameButNotItsValues)
 {
-  const HalfSpace<3> shape(Point<3>(0, 0, 0.1), Tensor<1, 3>({ 0, 0, 1 }));
+  const HalfSpace<3> shape(Point<3>(0, 0, 0.1), Tensor<1, 3>({0, 0, 1}));
   const auto         lattice = make_lattice(shape, frame<3>(0.1, 0.5), 0);
   for (unsigned int d = 0; d < 3; ++d)
     EXPECT_NEAR(lattice.box().lower_bound(d), -1.1, 1e-12);
   EXPECT_NEAR(lattice.box().upper_bound(0), 1.1, 1e-12);
   EXPECT_NEAR(lattice.box().upper_bound(2), 0.7, 1e-12);
-  EXPECT_NEAR(lattice.value({ 0.9, -0.9, 0.7 }, 1), 0.6, 1e-12);
+  EXPECT_NEAR(lattice.value({0.9, -0.9, 0.7}, 1), 0.6, 1e-12);
 }
 
 // Distances of a superellipse against its dense sampling, with order 2.
 TEST(LevelSetFromShape, SuperellipseBecomesADistanceOfSecondOrder)
 {
-  const double           a = 0.8, b = 0.5, n = 4;
-  std::vector<Point<2> > boundary;
+  const double          a = 0.8, b = 0.5, n = 4;
+  std::vector<Point<2>> boundary;
   for (unsigned int i = 0; i < 20000; ++i)
     {
       const double t = 2 * M_PI * i / 20000, c = std::cos(t), s = std::sin(t);
@@ -86,7 +87,7 @@ TEST(LevelSetFromShape, SuperellipseBecomesADistanceOfSecondOrder)
                             b * std::copysign(std::sqrt(std::abs(s)), s));
     }
   std::array<double, 2> error{};
-  for (const int level : { 0, 1 })
+  for (const int level : {0, 1})
     {
       const auto lattice = make_lattice(Superellipse<2>(Point<2>(), Point<2>(a, b), n),
                                         frame<2>(0.05 / (1 << level), 2), 0.3);
@@ -99,7 +100,7 @@ TEST(LevelSetFromShape, SuperellipseBecomesADistanceOfSecondOrder)
             for (const Point<2> &p : boundary)
               distance = std::min(distance, p.distance_square(Point<2>(x, y)));
             distance           = std::sqrt(distance);
-            const double value = std::abs(lattice.nodal_value({ x, y }));
+            const double value = std::abs(lattice.nodal_value({x, y}));
             if (distance > 0.02)
               error[level] = std::max(error[level], std::abs(value - distance));
           }
@@ -111,17 +112,17 @@ TEST(LevelSetFromShape, SuperellipseBecomesADistanceOfSecondOrder)
 TEST(LevelSetFromShape, CombinationsKeepTheirArea)
 {
   const auto parts = [] {
-    std::vector<ShapePointer<2> > result;
-    result.push_back(std::make_unique<Ball<2> >(Point<2>(-0.3, 0), 0.6));
-    result.push_back(std::make_unique<Ball<2> >(Point<2>(0.3, 0), 0.6));
+    std::vector<ShapePointer<2>> result;
+    result.push_back(std::make_unique<Ball<2>>(Point<2>(-0.3, 0), 0.6));
+    result.push_back(std::make_unique<Ball<2>>(Point<2>(0.3, 0), 0.6));
     return result;
   };
   const double r = 0.6, d = 0.6;
   const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
   const double disc = M_PI * r * r;
-  for (const auto &[type, exact] : { std::make_pair(ShapeType::union_of, 2 * disc - lens),
-                                     std::make_pair(ShapeType::intersection, lens),
-                                     std::make_pair(ShapeType::difference, disc - lens) })
+  for (const auto &[type, exact] : {std::make_pair(ShapeType::union_of, 2 * disc - lens),
+                                    std::make_pair(ShapeType::intersection, lens),
+                                    std::make_pair(ShapeType::difference, disc - lens)})
     {
       const auto lattice = make_lattice(CombinedShape<2>(type, parts()), frame<2>(0.02, 2), 0.2);
       EXPECT_NEAR(area(lattice), exact, 3e-3 * exact);
@@ -137,8 +138,8 @@ TEST(LevelSetFromShape, ExpressionsAreTrimmedAndReinitialised)
   EXPECT_NEAR(lattice.box().upper_bound(1), 0.8, 0.11);
   EXPECT_EQ(lattice.lower()[0] % 2, 0);
   EXPECT_EQ(lattice.n_nodes()[0] % 2, 1);
-  EXPECT_NEAR(lattice.value({ 1.6, 0.4 }, 3), std::hypot(0.6, 0.4) - 0.5, 1e-3);
-  EXPECT_NEAR(lattice.value({ 1.5, 0 }, 3), 0, 1e-5);
+  EXPECT_NEAR(lattice.value({1.6, 0.4}, 3), std::hypot(0.6, 0.4) - 0.5, 1e-3);
+  EXPECT_NEAR(lattice.value({1.5, 0}, 3), 0, 1e-5);
 }
 
 TEST(LevelSetFromShape, ShapesOutsideTheGridAreTold)
@@ -166,7 +167,7 @@ TEST(LevelSetFromShape, ABodyMayFillTheGrid)
 {
   const auto lattice = make_lattice(ExpressionShape<2>(Expression<2>("-1", 1, "Expression"), false),
                                     frame<2>(0.1, 1), 0);
-  EXPECT_EQ(lattice.value({ 0.3, 0.4 }, 2), -1);
+  EXPECT_EQ(lattice.value({0.3, 0.4}, 2), -1);
 }
 } // namespace
 } // namespace scree

@@ -82,7 +82,7 @@ TEST(ShapeParameters, MakeEachType)
     shape<2>("set Type = expression\nset Expression = x\nset Expression is distance = true")
       ->is_distance());
   EXPECT_NEAR(
-    shape<3>("set Type = ball\nset Centre = 0, 0, 1\nset Radius = 1")->signed_distance({ 0, 0, 4 }),
+    shape<3>("set Type = ball\nset Centre = 0, 0, 1\nset Radius = 1")->signed_distance({0, 0, 4}),
     2, 1e-14);
 }
 
@@ -92,16 +92,16 @@ TEST(ShapeParameters, RotateAndTranslate)
   const auto        turned = shape<2>(box + "set Rotation angle = 30\nset Translation = 5, 0");
   // The corner (2, 1), turned by 30 degrees about the origin and moved.
   const double c = std::sqrt(3.) / 2, s = 0.5;
-  EXPECT_NEAR(turned->signed_distance({ 5 + 2 * c - s, 2 * s + c }), 0, 1e-14);
-  EXPECT_NEAR(turned->signed_distance({ 5 + c - 0.5 * s, s + 0.5 * c }), -0.5, 1e-14); // its centre
+  EXPECT_NEAR(turned->signed_distance({5 + 2 * c - s, 2 * s + c}), 0, 1e-14);
+  EXPECT_NEAR(turned->signed_distance({5 + c - 0.5 * s, s + 0.5 * c}), -0.5, 1e-14); // its centre
   const auto about = shape<2>(box + "set Rotation angle = 90\nset Rotation centre = 2, 0");
-  EXPECT_NEAR(about->signed_distance({ 1.5, -1 }), -0.5, 1e-14);
+  EXPECT_NEAR(about->signed_distance({1.5, -1}), -0.5, 1e-14);
 
   const auto block = shape<3>("set Type = box\nset Lower corner = 0,0,0\nset Upper corner = 3,2,1\n"
                               "set Rotation angle = 120\nset Rotation axis = 2, 2, 2");
   // That turns x to y to z to x.
-  EXPECT_NEAR(block->signed_distance({ 0.5, 1.5, 3 }), 1, 1e-13);
-  EXPECT_NEAR(block->signed_distance({ 0.5, 3.25, 1 }), 0.25, 1e-13);
+  EXPECT_NEAR(block->signed_distance({0.5, 1.5, 3}), 1, 1e-13);
+  EXPECT_NEAR(block->signed_distance({0.5, 3.25, 1}), 0.25, 1e-13);
   EXPECT_NEAR(block->bounding_box().upper_bound(2), 2, 1e-13);
 }
 
@@ -114,9 +114,9 @@ TEST(ShapeParameters, CombineNamedPartsRecursively)
                             " subsection left\n  set Centre = 1, 1\n  set Radius = 0.5\n end\n"
                             " subsection right\n  set Centre = 3, 1\n  set Radius = 0.25\n end\nend";
   const auto        plate = shape<2>(text);
-  EXPECT_NEAR(plate->signed_distance({ 1, 1 }), 0.5, 1e-14);
-  EXPECT_NEAR(plate->signed_distance({ 3, 1 }), 0.25, 1e-14);
-  EXPECT_NEAR(plate->signed_distance({ 2, 1 }), -0.5, 1e-14);
+  EXPECT_NEAR(plate->signed_distance({1, 1}), 0.5, 1e-14);
+  EXPECT_NEAR(plate->signed_distance({3, 1}), 0.25, 1e-14);
+  EXPECT_NEAR(plate->signed_distance({2, 1}), -0.5, 1e-14);
   EXPECT_FALSE(plate->is_distance());
 }
 

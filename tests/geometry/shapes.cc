@@ -13,14 +13,14 @@ namespace
 using namespace dealii;
 
 template <int dim>
-using Boundary = std::vector<Point<dim> >;
+using Boundary = std::vector<Point<dim>>;
 
 // Points spread over a cube around the origin.
 template <int dim>
-std::vector<Point<dim> >
+std::vector<Point<dim>>
 scattered_points(const unsigned int n, const double extent)
 {
-  std::vector<Point<dim> > points(n);
+  std::vector<Point<dim>> points(n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int d = 0; d < dim; ++d)
       points[i][d] = extent
@@ -106,30 +106,30 @@ TEST(Shapes, BoxAndPolygonAgree)
 {
   const Point<2> lower(-0.4, -1.1), upper(1.3, 0.7);
   Boundary<2>    boundary;
-  add_segment(boundary, lower, { upper[0], lower[1] });
-  add_segment(boundary, lower, { lower[0], upper[1] });
-  add_segment(boundary, upper, { upper[0], lower[1] });
-  add_segment(boundary, upper, { lower[0], upper[1] });
+  add_segment(boundary, lower, {upper[0], lower[1]});
+  add_segment(boundary, lower, {lower[0], upper[1]});
+  add_segment(boundary, upper, {upper[0], lower[1]});
+  add_segment(boundary, upper, {lower[0], upper[1]});
   const auto inside = [&](const Point<2> &x) {
     return x[0] > lower[0] && x[1] > lower[1] && x[0] < upper[0] && x[1] < upper[1];
   };
   check_shape<2>(Box<2>(lower, upper), boundary, 1e-2, inside);
-  check_shape<2>(Polygon({ lower, { upper[0], lower[1] }, upper, { lower[0], upper[1] } }),
-                 boundary, 1e-2, inside);
-  check_shape<2>(Polygon({ lower, { lower[0], upper[1] }, upper, { upper[0], lower[1] } }),
-                 boundary, 1e-2, inside); // clockwise
+  check_shape<2>(Polygon({lower, {upper[0], lower[1]}, upper, {lower[0], upper[1]}}), boundary,
+                 1e-2, inside);
+  check_shape<2>(Polygon({lower, {lower[0], upper[1]}, upper, {upper[0], lower[1]}}), boundary,
+                 1e-2, inside); // clockwise
 
   const Box<3> box(Point<3>(-1, -0.5, 0), Point<3>(1, 0.5, 2));
-  EXPECT_NEAR(box.signed_distance({ 2, 1.5, 3 }), std::sqrt(3.), 1e-14);
-  EXPECT_NEAR(box.signed_distance({ 0.8, 0.1, 1 }), -0.2, 1e-14);
-  EXPECT_NEAR(box.signed_distance({ 1.5, 0.1, 1 }), 0.5, 1e-14);
+  EXPECT_NEAR(box.signed_distance({2, 1.5, 3}), std::sqrt(3.), 1e-14);
+  EXPECT_NEAR(box.signed_distance({0.8, 0.1, 1}), -0.2, 1e-14);
+  EXPECT_NEAR(box.signed_distance({1.5, 0.1, 1}), 0.5, 1e-14);
 }
 
 TEST(Shapes, ConcavePolygon)
 {
   // An arrow head with a re-entrant corner at the origin.
-  const std::vector<Point<2> > vertices = { { -1.5, -1 }, { 0, 0 }, { 1.5, -1 }, { 0, 2 } };
-  Boundary<2>                  boundary;
+  const std::vector<Point<2>> vertices = {{-1.5, -1}, {0, 0}, {1.5, -1}, {0, 2}};
+  Boundary<2>                 boundary;
   for (unsigned int i = 0; i < 4; ++i)
     add_segment(boundary, vertices[i], vertices[(i + 1) % 4]);
   check_shape<2>(Polygon(vertices), boundary, 1e-2, [](const Point<2> &x) {
@@ -139,30 +139,28 @@ TEST(Shapes, ConcavePolygon)
 
 TEST(Shapes, PolygonsThatCrossThemselvesAreRecognised)
 {
-  EXPECT_FALSE(Polygon::crosses_itself({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }));
-  EXPECT_TRUE(Polygon::crosses_itself({ { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } })); // bow tie
-  EXPECT_TRUE(Polygon::crosses_itself({ { 0, 0 }, { 1, 0 }, { 1, 0 }, { 0, 1 } })); // repeated
-  EXPECT_TRUE(Polygon::crosses_itself({ { 0, 0 }, { 2, 0 }, { 1, 0 }, { 1, 1 } })); // folded back
-  EXPECT_TRUE(Polygon::crosses_itself(
-    { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 0 }, { 0, 1 } })); // vertex on side
-  EXPECT_FALSE(
-    Polygon::crosses_itself({ { 0, 0 }, { 1, 0 }, { 2, 0 }, { 2, 1 } })); // straight angle
+  EXPECT_FALSE(Polygon::crosses_itself({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_TRUE(Polygon::crosses_itself({{0, 0}, {1, 1}, {1, 0}, {0, 1}}));         // bow tie
+  EXPECT_TRUE(Polygon::crosses_itself({{0, 0}, {1, 0}, {1, 0}, {0, 1}}));         // repeated
+  EXPECT_TRUE(Polygon::crosses_itself({{0, 0}, {2, 0}, {1, 0}, {1, 1}}));         // folded back
+  EXPECT_TRUE(Polygon::crosses_itself({{0, 0}, {2, 0}, {2, 1}, {1, 0}, {0, 1}})); // vertex on side
+  EXPECT_FALSE(Polygon::crosses_itself({{0, 0}, {1, 0}, {2, 0}, {2, 1}}));        // straight angle
 }
 
 TEST(Shapes, HalfSpace)
 {
-  const HalfSpace<2> shape(Point<2>(1, 1), Tensor<1, 2>({ 3, 4 }));
-  EXPECT_NEAR(shape.signed_distance({ 1.6, 1.8 }), 1, 1e-14);
-  EXPECT_NEAR(shape.signed_distance({ 1 - 0.6 - 4, 1 - 0.8 + 3 }), -1, 1e-14);
+  const HalfSpace<2> shape(Point<2>(1, 1), Tensor<1, 2>({3, 4}));
+  EXPECT_NEAR(shape.signed_distance({1.6, 1.8}), 1, 1e-14);
+  EXPECT_NEAR(shape.signed_distance({1 - 0.6 - 4, 1 - 0.8 + 3}), -1, 1e-14);
   EXPECT_GT(shape.bounding_box().upper_bound(0), 1e200);
-  const auto box = HalfSpace<2>(Point<2>(1, -0.5), Tensor<1, 2>({ 0, 2 })).bounding_box();
+  const auto box = HalfSpace<2>(Point<2>(1, -0.5), Tensor<1, 2>({0, 2})).bounding_box();
   EXPECT_EQ(box.upper_bound(1), -0.5);
   EXPECT_LT(box.lower_bound(1), -1e200);
 }
 
 TEST(Shapes, Ellipse)
 {
-  for (const Point<2> &axes : { Point<2>(2, 0.5), Point<2>(0.7, 1.9), Point<2>(1.2, 1.2) })
+  for (const Point<2> &axes : {Point<2>(2, 0.5), Point<2>(0.7, 1.9), Point<2>(1.2, 1.2)})
     check_shape<2>(
       Ellipse<2>(Point<2>(0.1, 0), axes),
       curve(20000,
@@ -176,20 +174,20 @@ TEST(Shapes, Ellipse)
 TEST(Shapes, EllipseOnItsAxes)
 {
   const Ellipse<2> ellipse(Point<2>(), Point<2>(2, 1));
-  EXPECT_NEAR(ellipse.signed_distance({ 0, 0 }), -1, 1e-14);
-  EXPECT_NEAR(ellipse.signed_distance({ 0, 3 }), 2, 1e-14);
-  EXPECT_NEAR(ellipse.signed_distance({ 3, 0 }), 1, 1e-14);
-  EXPECT_NEAR(ellipse.signed_distance({ 1.8, 0 }), -0.2, 1e-14); // beyond the centre of curvature
+  EXPECT_NEAR(ellipse.signed_distance({0, 0}), -1, 1e-14);
+  EXPECT_NEAR(ellipse.signed_distance({0, 3}), 2, 1e-14);
+  EXPECT_NEAR(ellipse.signed_distance({3, 0}), 1, 1e-14);
+  EXPECT_NEAR(ellipse.signed_distance({1.8, 0}), -0.2, 1e-14); // beyond the centre of curvature
   // (1, 0): the foot is at (4/3, sqrt(5)/3).
-  EXPECT_NEAR(ellipse.signed_distance({ 1, 0 }), -std::sqrt(6.) / 3, 1e-14);
-  for (const double tiny : { 1e-20, 1e-16, 1e-12, 1e-8 })
-    EXPECT_NEAR(ellipse.signed_distance({ 1, tiny }), -std::sqrt(6.) / 3, 2 * tiny + 1e-12);
+  EXPECT_NEAR(ellipse.signed_distance({1, 0}), -std::sqrt(6.) / 3, 1e-14);
+  for (const double tiny : {1e-20, 1e-16, 1e-12, 1e-8})
+    EXPECT_NEAR(ellipse.signed_distance({1, tiny}), -std::sqrt(6.) / 3, 2 * tiny + 1e-12);
 
   const Ellipse<3> ellipsoid(Point<3>(), Point<3>(3, 2, 1));
-  EXPECT_NEAR(ellipsoid.signed_distance({ 0, 0, 0 }), -1, 1e-14);
-  EXPECT_NEAR(ellipsoid.signed_distance({ 4, 0, 0 }), 1, 1e-14);
-  EXPECT_NEAR(ellipsoid.signed_distance({ 2.9, 0, 0 }), -0.1, 1e-14);
-  EXPECT_NEAR(ellipsoid.signed_distance({ 0, -2.5, 0 }), 0.5, 1e-14);
+  EXPECT_NEAR(ellipsoid.signed_distance({0, 0, 0}), -1, 1e-14);
+  EXPECT_NEAR(ellipsoid.signed_distance({4, 0, 0}), 1, 1e-14);
+  EXPECT_NEAR(ellipsoid.signed_distance({2.9, 0, 0}), -0.1, 1e-14);
+  EXPECT_NEAR(ellipsoid.signed_distance({0, -2.5, 0}), 0.5, 1e-14);
 }
 
 TEST(Shapes, Ellipsoid)
@@ -214,7 +212,7 @@ TEST(Shapes, Ellipsoid)
 TEST(Shapes, Ring)
 {
   Boundary<2> boundary;
-  for (const double r : { 0.6, 1.4 })
+  for (const double r : {0.6, 1.4})
     for (const Point<2> &x :
          curve(8000, [&](double t) { return Point<2>(r * std::cos(t), r * std::sin(t)); }))
       boundary.push_back(x);
@@ -225,7 +223,7 @@ TEST(Shapes, Ring)
 TEST(Shapes, Capsule)
 {
   const Point<2>     a(-1, -0.5), b(0.8, 0.4);
-  const Tensor<1, 2> along = (b - a) / (b - a).norm(), across({ -along[1], along[0] });
+  const Tensor<1, 2> along = (b - a) / (b - a).norm(), across({-along[1], along[0]});
   Boundary<2>        boundary;
   add_segment(boundary, a + 0.5 * across, b + 0.5 * across);
   add_segment(boundary, a - 0.5 * across, b - 0.5 * across);
@@ -242,8 +240,8 @@ TEST(Shapes, Capsule)
                                : std::abs((x - a) * across) < 0.5;
   });
   EXPECT_NEAR(
-    Capsule<3>(Point<3>(0, 0, -1), Point<3>(0, 0, 1), 0.25).signed_distance({ 0.3, 0.4, 0.7 }),
-    0.25, 1e-14);
+    Capsule<3>(Point<3>(0, 0, -1), Point<3>(0, 0, 1), 0.25).signed_distance({0.3, 0.4, 0.7}), 0.25,
+    1e-14);
 }
 
 TEST(Shapes, SuperellipseIsALevelSetOfItsFormula)
@@ -251,10 +249,10 @@ TEST(Shapes, SuperellipseIsALevelSetOfItsFormula)
   const Superellipse<2> shape(Point<2>(0.1, 0.2), Point<2>(2, 0.5), 4);
   EXPECT_FALSE(shape.is_distance());
   EXPECT_NEAR(
-    shape.signed_distance({ 0.1 + 2 * std::pow(0.5, 0.25), 0.2 - 0.5 * std::pow(0.5, 0.25) }), 0,
+    shape.signed_distance({0.1 + 2 * std::pow(0.5, 0.25), 0.2 - 0.5 * std::pow(0.5, 0.25)}), 0,
     1e-14);
-  EXPECT_NEAR(shape.signed_distance({ 4.1, 0.2 }), 0.5, 1e-14);
-  EXPECT_LT(shape.signed_distance({ 0.1, 0.2 }), 0);
+  EXPECT_NEAR(shape.signed_distance({4.1, 0.2}), 0.5, 1e-14);
+  EXPECT_LT(shape.signed_distance({0.1, 0.2}), 0);
 }
 
 TEST(Shapes, MovedShapesTurnCounterClockwiseAboutTheirCentre)
@@ -262,22 +260,22 @@ TEST(Shapes, MovedShapesTurnCounterClockwiseAboutTheirCentre)
   Tensor<2, 2> quarter;
   quarter[0][1] = -1;
   quarter[1][0] = 1;
-  const MovedShape<2> shape(std::make_unique<Box<2> >(Point<2>(1, 0), Point<2>(3, 1)), quarter,
-                            Point<2>(1, 0), Tensor<1, 2>({ 10, 20 }));
+  const MovedShape<2> shape(std::make_unique<Box<2>>(Point<2>(1, 0), Point<2>(3, 1)), quarter,
+                            Point<2>(1, 0), Tensor<1, 2>({10, 20}));
   EXPECT_TRUE(shape.is_distance());
   const auto [lower, upper] = shape.bounding_box().get_boundary_points();
   EXPECT_LT(lower.distance(Point<2>(10, 20)), 1e-12);
   EXPECT_LT(upper.distance(Point<2>(11, 22)), 1e-12);
-  EXPECT_NEAR(shape.signed_distance({ 10.5, 21.75 }), -0.25, 1e-12);
-  EXPECT_NEAR(shape.signed_distance({ 10.5, 23 }), 1, 1e-12);
+  EXPECT_NEAR(shape.signed_distance({10.5, 21.75}), -0.25, 1e-12);
+  EXPECT_NEAR(shape.signed_distance({10.5, 23}), 1, 1e-12);
 }
 
 TEST(Shapes, CombinationsFollowSetAlgebra)
 {
   const auto parts = [] {
-    std::vector<ShapePointer<2> > result;
-    result.push_back(std::make_unique<Ball<2> >(Point<2>(0, 0), 1));
-    result.push_back(std::make_unique<Ball<2> >(Point<2>(0.8, 0), 0.7));
+    std::vector<ShapePointer<2>> result;
+    result.push_back(std::make_unique<Ball<2>>(Point<2>(0, 0), 1));
+    result.push_back(std::make_unique<Ball<2>>(Point<2>(0.8, 0), 0.7));
     return result;
   };
   const CombinedShape<2> both(ShapeType::union_of, parts()),
@@ -301,8 +299,8 @@ TEST(Shapes, CombinationsFollowSetAlgebra)
 TEST(Shapes, Expression)
 {
   const ExpressionShape<3> shape(Expression<3>("max(x - 1, y + z)", 1, "Expression"), false);
-  EXPECT_NEAR(shape.signed_distance({ 3, 1, 0.5 }), 2, 1e-14);
-  EXPECT_NEAR(shape.signed_distance({ 0, -2, 1.5 }), -0.5, 1e-14);
+  EXPECT_NEAR(shape.signed_distance({3, 1, 0.5}), 2, 1e-14);
+  EXPECT_NEAR(shape.signed_distance({0, -2, 1.5}), -0.5, 1e-14);
   EXPECT_FALSE(shape.is_distance());
 }
 } // namespace

@@ -56,7 +56,7 @@ check_ball()
         direction[d] = std::sin(1. + 1.7 * i * (d + 1) + d);
       direction /= direction.norm();
       const Point<dim> x(direction * (0.3 + 0.8 * (i % 17) / 17.));
-      for (const auto &result : { closest_point(lattice, x, 3), project(lattice, x, 3) })
+      for (const auto &result : {closest_point(lattice, x, 3), project(lattice, x, 3)})
         {
           ASSERT_TRUE(result.converged);
           EXPECT_LT(result.point.distance(Point<dim>(direction * radius)), 1e-2 * 0.05);
@@ -100,10 +100,10 @@ TEST(ClosestPoint, IsTheNearestPointOfAnEllipse)
 
 TEST(ClosestPoint, ErrorsFallWithOrderDegreePlusOne)
 {
-  for (const unsigned int degree : { 1, 2, 3 })
+  for (const unsigned int degree : {1, 2, 3})
     {
       std::array<double, 2> error{};
-      for (const int level : { 0, 1 })
+      for (const int level : {0, 1})
         {
           const double h = 0.1 / (1 << (2 * level));
           const auto   lattice
@@ -125,7 +125,7 @@ TEST(ClosestPoint, EndsAtTheCornersOfASquare)
 {
   const auto lattice = sampled<2>(
     0.1, 20, [](const Point<2> &x) { return std::max(std::abs(x[0]), std::abs(x[1])) - 1; });
-  for (const Point<2> x : { Point<2>(1.35, 1.25), Point<2>(-1.5, 1.22), Point<2>(1.6, -1.6) })
+  for (const Point<2> x : {Point<2>(1.35, 1.25), Point<2>(-1.5, 1.22), Point<2>(1.6, -1.6)})
     {
       const auto result = closest_point(lattice, x, 1);
       EXPECT_TRUE(result.converged);
@@ -134,6 +134,25 @@ TEST(ClosestPoint, EndsAtTheCornersOfASquare)
     }
   const auto flat = closest_point(lattice, Point<2>(1.3, 0.4), 1);
   EXPECT_LT(flat.point.distance(Point<2>(1, 0.4)), 1e-12);
+}
+
+// Far from the origin of the coordinates a distance of 1e-13 spacings is lost in rounding.
+TEST(ClosestPoint, ConvergesFarFromTheOrigin)
+{
+  const Point<2>  centre(1000, -2000);
+  LatticeFrame<2> frame;
+  frame.origin  = centre;
+  frame.spacing = 0.01;
+  Lattice<2> lattice(frame, {{-20, -20}}, {{41, 41}});
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    lattice.values()[i] = lattice.node(lattice.index(i)).distance(centre) - 0.12;
+  for (unsigned int i = 0; i < 300; ++i)
+    for (const unsigned int degree : {1, 2, 3})
+      {
+        const Point<2> x = centre + 0.15 * Point<2>(std::cos(i), std::sin(i));
+        EXPECT_TRUE(closest_point(lattice, x, degree).converged);
+        EXPECT_TRUE(project(lattice, x, degree).converged);
+      }
 }
 
 TEST(ClosestPoint, SaysWhenThereIsNone)

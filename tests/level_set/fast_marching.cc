@@ -58,7 +58,7 @@ ball_error(const double h, const int n)
 TEST(FastMarching, IsSecondOrderInTheMaximumNorm)
 {
   std::array<double, 3> errors;
-  for (int level : { 0, 1, 2 })
+  for (int level : {0, 1, 2})
     errors[level] = ball_error<2>(0.05 / (1 << level), 20 << level);
   EXPECT_LT(errors[1], 1e-3);
   EXPECT_GT(std::log2(errors[0] / errors[1]), 1.7);
@@ -121,7 +121,7 @@ TEST(FastMarching, RepeatedTwentyTimesMovesTheContourLittle)
 // Planes at any angle are exact.
 TEST(FastMarching, IsExactForPlanes)
 {
-  for (const double angle : { 0., 0.3, 0.7853981633974483 })
+  for (const double angle : {0., 0.3, 0.7853981633974483})
     {
       const auto plane = [&](const Point<2> &x) {
         return std::cos(angle) * x[0] + std::sin(angle) * x[1] - 0.013;

@@ -86,7 +86,7 @@ check_exactness(const unsigned int degree)
 
 TEST(Lattice, InterpolatesPolynomialsOfItsDegreeExactly)
 {
-  for (const unsigned int degree : { 1, 2, 3 })
+  for (const unsigned int degree : {1, 2, 3})
     {
       check_exactness<2>(degree);
       check_exactness<3>(degree);
@@ -96,10 +96,10 @@ TEST(Lattice, InterpolatesPolynomialsOfItsDegreeExactly)
 TEST(Lattice, InterpolationErrorsFallWithOrderDegreePlusOne)
 {
   const auto f = [](const Point<2> &x) { return std::sin(2 * x[0] + x[1]) * std::cos(x[1]); };
-  for (const unsigned int degree : { 1, 2, 3 })
+  for (const unsigned int degree : {1, 2, 3})
     {
       std::array<double, 2> error{};
-      for (const int level : { 0, 1 })
+      for (const int level : {0, 1})
         {
           Lattice<2> lattice = make_lattice<2>(0.1 / (1 << level), 10 << level);
           sample(lattice, f);
@@ -120,13 +120,13 @@ TEST(Lattice, QuadraticCellsAreAlignedWithEvenNodes)
 {
   LatticeFrame<2> frame;
   frame.spacing = 0.5;
-  for (const int lower : { -4, -2, 0 })
+  for (const int lower : {-4, -2, 0})
     {
-      Lattice<2> lattice(frame, { { lower, lower } }, { { 9, 9 } });
+      Lattice<2> lattice(frame, {{lower, lower}}, {{9, 9}});
       sample(lattice, [](const Point<2> &x) { return std::pow(x[0], 3); });
       // On the cell [1, 2] with nodes 1, 1.5, 2: x^3 - (x - 1) (x - 1.5) (x - 2).
       const double x = 1.2;
-      EXPECT_NEAR(lattice.value({ x, 0.3 }, 2), x * x * x - (x - 1) * (x - 1.5) * (x - 2), 1e-13);
+      EXPECT_NEAR(lattice.value({x, 0.3}, 2), x * x * x - (x - 1) * (x - 1.5) * (x - 2), 1e-13);
     }
 }
 
@@ -140,7 +140,7 @@ check_outside()
   x[0] += 3;
   x[1] += 4;
   const double expected = lattice.value(corner, 1) + 5;
-  for (const unsigned int degree : { 1, 2, 3 })
+  for (const unsigned int degree : {1, 2, 3})
     EXPECT_NEAR(lattice.value(x, degree), expected, 1e-12);
   EXPECT_NEAR(lattice.nodal_value(x), expected, 1e-12);
 
@@ -178,17 +178,17 @@ TEST(Lattice, NumbersItsNodesBackAndForth)
       EXPECT_TRUE(lattice.contains(lattice.index(i)));
       EXPECT_TRUE(std::isnan(lattice(lattice.index(i))));
     }
-  EXPECT_FALSE(lattice.contains({ { 4, 0, 0 } }));
-  EXPECT_FALSE(lattice.contains({ { 0, 0, -4 } }));
-  EXPECT_EQ(lattice.offset({ { -2, -3, -3 } }), 1u);
+  EXPECT_FALSE(lattice.contains({{4, 0, 0}}));
+  EXPECT_FALSE(lattice.contains({{0, 0, -4}}));
+  EXPECT_EQ(lattice.offset({{-2, -3, -3}}), 1u);
 }
 
 TEST(Lattice, NodalValuesAreRoundedToTheNode)
 {
   Lattice<2> lattice = make_lattice<2>(0.1, 10);
   sample(lattice, [](const Point<2> &x) { return x[0] - 3 * x[1]; });
-  const Point<2> node = lattice.node({ { 3, -7 } });
-  EXPECT_EQ(lattice.nodal_value(node + Point<2>(1e-12, -1e-12)), lattice({ { 3, -7 } }));
+  const Point<2> node = lattice.node({{3, -7}});
+  EXPECT_EQ(lattice.nodal_value(node + Point<2>(1e-12, -1e-12)), lattice({{3, -7}}));
 }
 } // namespace
 } // namespace scree

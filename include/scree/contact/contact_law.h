@@ -64,20 +64,18 @@ struct ContactResponse
 
 /**
  * Penalty contact with Coulomb friction as perfect plasticity (method.md section 8; Kikuchi & Oden
- * 1988): with g = g_0 + n.[[u]], p = eps_n <-g>, tau* = tau_n - eps_t P([[u]] - [[u]]_n), P = I - n
- * n^T, stick if |tau*| <= mu p, else tau = mu p s, s = tau*/
-| tau * |.The tangent is consistent : *stick : eps_n n n ^ T + eps_t P,
-  *slip : eps_n n n ^ T + mu eps_n s n
-    ^ T
-        + (mu p / | tau * |) eps_t(P - s s ^ T)
-            .*Tied
-    : p                                 = -eps_n n.
-           [[u]] of either sign and tau = tau *.Gaps in[0, closing_gap] carry no traction but
-                                          * the tangent of stick
-    : a body that touches without load is held in the first iteration.
-                                          *
-                                          / template <int dim>
-                                          ContactResponse<dim> contact_response(
-                                            const ContactLaw law, const double friction_coefficient,
-                                            const ContactKinematics<dim> &kinematics);
+ * 1988). With g = g_0 + n.[[u]], p = eps_n <-g>, P = I - n n^T and the trial traction
+ * tau_t = tau_n - eps_t P ([[u]] - [[u]]_n): stick if |tau_t| <= mu p, else tau = mu p s with
+ * s = tau_t / |tau_t|. The tangent is consistent:
+ *
+ *     stick: eps_n n n^T + eps_t P
+ *     slip:  eps_n n n^T + mu eps_n s n^T + (mu p / |tau_t|) eps_t (P - s s^T)
+ *
+ * Tied: p = -eps_n n.[[u]] of either sign and tau = tau_t. Gaps in [0, closing_gap] carry no
+ * traction but the tangent of stick: a body that touches without load is held in the first
+ * iteration.
+ */
+template <int dim>
+ContactResponse<dim> contact_response(const ContactLaw law, const double friction_coefficient,
+                                      const ContactKinematics<dim> &kinematics);
 } // namespace scree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 #include <scree/state/state.h>
 
@@ -65,6 +66,9 @@ public:
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
+  /** The |r| that round-off in A u leaves at the last residual(). */
+  double round_off() const;
+
   /** Rigid motions of each body, for the near null space. */
   std::vector<Vector> rigid_motions() const;
 
@@ -104,7 +108,10 @@ public:
   }
 
 private:
-  void   set_up_matrices();
+  void                       set_up_matrices();
+  dealii::FullMatrix<double> resistance_of_supports(const unsigned int       body,
+                                                    const RigidMotions<dim> &motions) const;
+
   void   find_free_bodies();
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
@@ -127,7 +134,9 @@ private:
   Vector                  ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet        ghosted_dofs;
   std::vector<FreeMotion> free_motions;
-  double                  time = 0.;
+  double                  time              = 0.;
+  double                  largest_stiffness = 0.; //!< largest diagonal entry of A
+  double                  displacement_norm = 0.; //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule.
   Energies current_energies;

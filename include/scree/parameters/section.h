@@ -32,9 +32,9 @@ public:
    * equal to the printed default is always accepted.
    *
    * `T` is bool, int, unsigned int, double, std::string, or, with commas between the components,
-   * std::vector<std::string>, std::vector<double>, dealii::Point<2|3>, dealii::Tensor<1, 2|3>, or
-   * std::vector<dealii::Point<2|3>> as in "0,0; 1,0; 1,1". NaN means unset and is printed as the
-   * empty text; NaN and infinity cannot be written by the user.
+   * std::vector<std::string>, std::vector<unsigned int>, std::vector<double>, dealii::Point<2|3>,
+   * dealii::Tensor<1, 2|3>, or std::vector<dealii::Point<2|3>> as in "0,0; 1,0; 1,1". NaN means
+   * unset and is printed as the empty text; NaN and infinity cannot be written by the user.
    */
   template <typename T>
   void entry(const std::string &key, T &value, const std::string &documentation) const;

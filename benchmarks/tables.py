@@ -1,0 +1,64 @@
+"""What the benchmark scripts share: reading results, fits, integrals of curves, tables."""
+import csv
+import glob
+import os
+
+import numpy as np
+
+
+def read_csv(path):
+    """A CSV file as a dictionary of columns; columns of numbers become arrays."""
+    with open(path) as file:
+        rows = list(csv.reader(file))
+    columns = {}
+    for i, name in enumerate(rows[0]):
+        values = [row[i] for row in rows[1:]]
+        try:
+            columns[name] = np.array(values, float)
+        except ValueError:
+            columns[name] = np.array(values)
+    return columns
+
+
+def last_contact(results, step=None):
+    """The contact points of a step (default: the last written), sorted by x."""
+    files = sorted(glob.glob(os.path.join(results, 'contact_*.csv')))
+    path = files[-1] if step is None else os.path.join(results, 'contact_%04d.csv' % step)
+    contact = read_csv(path)
+    order = np.argsort(contact['x'], kind='stable')
+    return {name: column[order] for name, column in contact.items()}
+
+
+def ellipse_fit(x, p, half_width):
+    """Peak and half width of p^2 = p0^2 (1 - x^2/a^2), fitted on |x| < 0.7 half_width."""
+    inner = np.abs(x) < 0.7 * half_width
+    matrix = np.stack([np.ones(inner.sum()), -x[inner] ** 2], 1)
+    c0, c1 = np.linalg.lstsq(matrix, p[inner] ** 2, rcond=None)[0]
+    return np.sqrt(c0), np.sqrt(c0 / c1)
+
+
+def oscillation(x, p, half_width, peak, degree=6):
+    """Root mean square of p around a smooth polynomial fit on |x| < 0.7 half_width, over the peak."""
+    inner = np.abs(x) < 0.7 * half_width
+    fit = np.polynomial.Polynomial.fit(x[inner], p[inner], degree)
+    return np.sqrt(np.mean((p[inner] - fit(x[inner])) ** 2)) / peak
+
+
+def relative_l2(x, weight, value, x_reference, reference, low=-np.inf, high=np.inf):
+    """|value - reference| / |reference| in L2 by the quadrature weights, on low < x < high."""
+    inside = (x > low) & (x < high)
+    expected = np.interp(x[inside], x_reference, reference)
+    w = weight[inside]
+    return np.sqrt(np.sum(w * (value[inside] - expected) ** 2) / np.sum(w * expected ** 2))
+
+
+def print_table(header, rows):
+    """Markdown table; numbers with 6 digits."""
+    def text(value):
+        return value if isinstance(value, str) else '%.6g' % value
+    cells = [[text(value) for value in row] for row in [header] + rows]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
+    for number, row in enumerate(cells):
+        print('| ' + ' | '.join(value.ljust(width) for value, width in zip(row, widths)) + ' |')
+        if number == 0:
+            print('|' + '|'.join('-' * (width + 2) for width in widths) + '|')

@@ -1,0 +1,161 @@
+"""The deformed bodies, coloured by a field."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.tri import Triangulation
+
+from .results import BodyMesh
+from .style import COLOURS, figure_for, nice_number_below, save, short
+
+LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement"}
+
+
+def outline(mesh):
+    """Pairs of point numbers (n, 2) that bound the bodies in 2D.
+
+    Cells of different size share parts of edges. All edges inside a body lie on grid lines, or are shared whole:
+    on a grid line the outline is where a single cell covers the line, elsewhere an edge without a partner.
+    """
+    points, body, edges = mesh.points[:, :2], mesh.body, mesh.edges()
+    tolerance = 1e-7 * mesh.size
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    on_line = np.abs(end - start) < tolerance
+    segments = []
+    for along in range(2):
+        flat = edges[on_line[:, 1 - along] & ~on_line[:, along]]
+        segments.append(covered_once(points, body, flat, along, tolerance))
+    slanted = edges[~on_line.any(axis=1)]
+    segments.append(without_partner(points, body, slanted, tolerance))
+    return np.concatenate(segments)
+
+
+def covered_once(points, body, edges, along, tolerance):
+    """Parts of edges parallel to axis `along` that belong to one cell only."""
+    if len(edges) == 0:
+        return np.empty((0, 2), dtype=int)
+    swap = points[edges[:, 0], along] > points[edges[:, 1], along]
+    edges = np.where(swap[:, None], edges[:, ::-1], edges)
+    ends = np.concatenate([edges[:, 0], edges[:, 1]])
+    change = np.repeat([1, -1], len(edges))
+    line = np.rint(points[ends, 1 - along] / tolerance / 4).astype(np.int64)
+    place = np.rint(points[ends, along] / tolerance / 4).astype(np.int64)
+    order = np.lexsort((change, place, line, body[ends]))
+    covers = np.cumsum(change[order])
+    ends, place = ends[order], place[order]
+    once = np.flatnonzero((covers[:-1] == 1) & (place[1:] > place[:-1]))
+    return np.stack([ends[once], ends[once + 1]], axis=1)
+
+
+def without_partner(points, body, edges, tolerance):
+    if len(edges) == 0:
+        return edges
+    grid = np.rint(points / tolerance / 4).astype(np.int64)
+    key = np.column_stack([grid, body])
+    _, number = np.unique(key[edges.ravel()], axis=0, return_inverse=True)
+    number = np.sort(number.reshape(-1, 2), axis=1)
+    _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
+    return edges[first[count == 1]]
+
+
+def automatic_warp(mesh, contact):
+    """Largest displacement 5% of the size, but no visible overlap of magnified bodies: with the factor w the gap
+    g_0 + n.[[u]] is drawn as g_0 + w n.[[u]]."""
+    largest = np.linalg.norm(mesh.displacement, axis=1).max()
+    if largest == 0.0:
+        return 1.0
+    warp = 0.05 * mesh.size / largest
+    if contact:
+        axes = [axis for axis in "xyz" if f"normal_{axis}" in contact]
+        closing = sum(contact[f"normal_{axis}"] * contact[f"jump_{axis}"] for axis in axes)
+        initial = contact["gap"] - closing
+        shut = (closing < 0.0) & (initial > -0.005 * mesh.size)
+        if shut.any():
+            warp = min(warp, ((initial[shut] + 0.005 * mesh.size) / -closing[shut]).min())
+    return nice_number_below(max(warp, 1.0))
+
+
+def limits(mesh, values):
+    """Range of the colours: 99.5% of the points, so that corner singularities do not hide the rest."""
+    low, high = np.percentile(values, [0.25, 99.75])
+    if low >= 0.0 and low < 0.3 * high:
+        low = 0.0
+    if high - low <= 1e-12 * max(abs(low), abs(high)):
+        high, low = high + 1e-9 * (abs(high) or 1.0), low - 1e-9 * (abs(low) or 1.0)
+    extend = {(0, 0): "neither", (0, 1): "max", (1, 0): "min", (1, 1): "both"}
+    return low, high, extend[(int(values.min() < low - 1e-9 * (high - low)),
+                              int(values.max() > high + 1e-9 * (high - low)))]
+
+
+def draw(run, field, step, warp):
+    """Writes bodies_FIELD.png (bodies_FIELD_NNNN.png for a step asked for) and returns its path."""
+    if not run.body_files:
+        return None
+    name = f"bodies_{field}.png" if step is None else f"bodies_{field}_{step:04d}.png"
+    step = run.chosen_step(run.body_files, step)
+    mesh = run.mesh(step)
+    values = mesh.field(field)
+    contact = run.contact(step) if step in run.contact_files else None
+    factor = automatic_warp(mesh, contact) if warp == "auto" else warp
+    deformed = mesh.points + factor * mesh.displacement
+    if mesh.dim == 3:
+        figure, axes, colours = draw_3d(mesh, deformed, values)
+    else:
+        figure, axes, colours = draw_2d(mesh, deformed[:, :2], values)
+    time = run.time_of(step)
+    axes.set_title(f"{run.title}\n" + (f"time {short(time)}, " if time is not None else "")
+                   + f"displacements times {short(factor)}")
+    label = LABELS.get(field, field.replace("_", " "))
+    figure.colorbar(colours, ax=axes, label=label, extend=limits(mesh, values)[2], shrink=0.85, pad=0.02)
+    return save(figure, run.directory / name)
+
+
+def draw_2d(mesh, deformed, values):
+    figure, axes = figure_for(deformed)
+    low, high, _ = limits(mesh, values)
+    colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], mesh.triangles()), values,
+                             shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
+    edges = outline(mesh)
+    axes.add_collection(LineCollection(deformed[edges], colors="black", linewidths=0.8, capstyle="round"))
+    return figure, axes, colours
+
+
+def surface_3d(mesh):
+    """Faces without a partner (n, 3 or 4 points; triangles repeat the last one)."""
+    tetrahedra, hexahedra = mesh.cells_of(BodyMesh.tetrahedron), mesh.cells_of(BodyMesh.hexahedron)
+    faces = [tetrahedra[:, list(f) + [f[2]]] for f in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))]
+    faces += [hexahedra[:, list(f)] for f in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5),
+                                              (2, 3, 7, 6), (3, 0, 4, 7))]
+    faces = np.concatenate(faces)
+    grid = np.rint(mesh.points / (4e-7 * mesh.size)).astype(np.int64)
+    _, number = np.unique(np.column_stack([grid, mesh.body]), axis=0, return_inverse=True)
+    _, first, count = np.unique(np.sort(number[faces], axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[first[count == 1]]
+
+
+def draw_3d(mesh, deformed, values):
+    """The surface seen from above the x-y corner, farthest faces first; faces inside are painted over."""
+    faces = surface_3d(mesh)
+    azimuth, elevation = np.radians(-60.0), np.radians(25.0)
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+    towards = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)])
+    up = np.cross(towards, right)
+    corners = deformed[faces]
+    order = np.argsort((corners @ towards).mean(axis=1))
+    faces, corners = faces[order], corners[order]
+    plane = np.stack([deformed @ right, deformed @ up], axis=1)
+    figure, axes = figure_for(plane)
+    axes.set_axis_off()
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True).clip(1e-300)
+    light = 0.65 + 0.35 * np.abs(normal @ (towards + 0.4 * up) / np.linalg.norm(towards + 0.4 * up))
+    low, high, _ = limits(mesh, values)
+    colours = PolyCollection(plane[faces], cmap="viridis", rasterized=True)
+    colours.set_array(values[faces].mean(axis=1))
+    colours.set_clim(low, high)
+    shown = colours.to_rgba(colours.get_array())
+    shown[:, :3] *= light[:, None]
+    axes.add_collection(PolyCollection(plane[faces], facecolors=shown, edgecolors=shown, linewidths=0.2))
+    return figure, axes, colours
+
+
+def body_colour(number):
+    return COLOURS[number % len(COLOURS)]

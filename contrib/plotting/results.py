@@ -1,0 +1,209 @@
+"""The files that a run of scree leaves in its output directory."""
+import re
+from pathlib import Path
+
+import numpy as np
+
+
+class ResultsError(Exception):
+    """Something the user can mend: a missing file, an unknown name."""
+
+
+def read_table(path):
+    """A CSV file with a header as {column name: array}; lines that start with # are comments."""
+    with open(path, encoding="utf-8") as file:
+        lines = [line for line in file if line.strip() and not line.startswith("#")]
+    if not lines:
+        raise ResultsError(f"{path}: the file is empty")
+    names = [name.strip() for name in lines[0].split(",")]
+    rows = [[float(value or "nan") for value in line.split(",")] for line in lines[1:]]
+    values = np.array(rows).reshape(len(rows), len(names))
+    return {name: values[:, i] for i, name in enumerate(names)}
+
+
+class ReferenceCurve:
+    """CSV:X:Y[:LABEL], two columns of a file to compare with."""
+
+    def __init__(self, text):
+        words = text.split(":")
+        if len(words) not in (3, 4):
+            raise ResultsError(f"--reference {text}: CSV:X:Y or CSV:X:Y:LABEL is needed")
+        table = read_table(words[0])
+        self.x, self.y = (self.column(table, words[0], word) for word in words[1:3])
+        self.label = words[3] if len(words) == 4 else Path(words[0]).stem
+
+    @staticmethod
+    def column(table, file_name, word):
+        if word in table:
+            return table[word]
+        if word.isdigit() and int(word) < len(table):
+            return list(table.values())[int(word)]
+        raise ResultsError(f"{file_name} has no column '{word}', but: {', '.join(table)}")
+
+
+class BodyMesh:
+    """The pieces of the bodies in the order of the file: points (n, 3), arrays of triangles and quadrilaterals
+    (2D) or tetrahedra and hexahedra (3D) with the kind of each cell, and the fields at the points."""
+
+    triangle, quadrilateral, tetrahedron, hexahedron = 5, 9, 10, 12
+
+    def __init__(self, pieces):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+        points, fields, cells, offset = [], {}, {}, 0
+        for path in pieces:
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(str(path))
+            reader.Update()
+            grid = reader.GetOutput()
+            if grid.GetNumberOfPoints() == 0:
+                continue
+            points.append(vtk_to_numpy(grid.GetPoints().GetData()).astype(float))
+            kinds = vtk_to_numpy(grid.GetCellTypesArray())
+            starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+            connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+            for kind in np.unique(kinds):
+                begin = starts[:-1][kinds == kind]
+                size = starts[1:][kinds == kind][0] - begin[0]
+                cells.setdefault(int(kind), []).append(connectivity[begin[:, None] + np.arange(size)] + offset)
+            data = grid.GetPointData()
+            for i in range(data.GetNumberOfArrays()):
+                fields.setdefault(data.GetArrayName(i), []).append(vtk_to_numpy(data.GetArray(i)).astype(float))
+            offset += grid.GetNumberOfPoints()
+        if not points:
+            raise ResultsError(f"{pieces[0]}: no points")
+        self.points = np.concatenate(points)
+        self.fields = {name: np.concatenate(parts) for name, parts in fields.items()}
+        self.cells = {kind: np.concatenate(parts) for kind, parts in cells.items()}
+        self.dim = 3 if any(kind in self.cells for kind in (self.tetrahedron, self.hexahedron)) else 2
+        self.fields["displacement_magnitude"] = np.linalg.norm(self.displacement, axis=1)
+
+    @property
+    def displacement(self):
+        return self.fields["displacement"]
+
+    @property
+    def body(self):
+        """Number of the body at each point."""
+        return np.rint(self.fields["body"]).astype(int)
+
+    @property
+    def size(self):
+        """Largest edge of the box around all bodies."""
+        return float(np.ptp(self.points, axis=0).max())
+
+    def field(self, name):
+        if name not in self.fields or self.fields[name].ndim > 1:
+            known = ", ".join(sorted(key for key, values in self.fields.items() if values.ndim == 1))
+            raise ResultsError(f"--field {name}: there is no such field, but: {known}")
+        return self.fields[name]
+
+    def cells_of(self, kind):
+        n_vertices = {self.triangle: 3, self.quadrilateral: 4, self.tetrahedron: 4, self.hexahedron: 8}[kind]
+        return self.cells.get(kind, np.empty((0, n_vertices), dtype=int))
+
+    def triangles(self):
+        """All cells of 2D as triangles (n, 3)."""
+        quads = self.cells_of(self.quadrilateral)
+        return np.concatenate([self.cells_of(self.triangle), quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+    def edges(self):
+        """All edges of the 2D cells (n, 2), those between cells as often as there are cells."""
+        edges = []
+        for kind in (self.triangle, self.quadrilateral):
+            cells = self.cells_of(kind)
+            edges += [np.stack([cells[:, i], np.roll(cells, -1, axis=1)[:, i]], axis=1)
+                      for i in range(cells.shape[1])]
+        return np.concatenate(edges)
+
+
+class RunResults:
+    """An output directory: which steps there are, and their tables and meshes."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        if not self.directory.is_dir():
+            raise ResultsError(f"{directory}: there is no such directory")
+        self.parameters = self.read_parameters()
+        self.body_files = self.files_by_step(r"bodies_(\d+)(?:\.\d+)?\.vtu")
+        self.contact_files = self.files_by_step(r"contact_(\d+)\.csv")
+        if not (self.body_files or self.contact_files or self.has_history):
+            raise ResultsError(f"{directory}: there are no results of scree in this directory")
+
+    @property
+    def has_history(self):
+        return (self.directory / "history.csv").exists()
+
+    @property
+    def is_check(self):
+        """Whether only the set-up was written (scree --check)."""
+        return not self.has_history and 0 in self.body_files
+
+    @property
+    def title(self):
+        return self.parameters.get("Title", "") or self.directory.name
+
+    def files_by_step(self, pattern):
+        steps = {}
+        for path in sorted(self.directory.iterdir()):
+            match = re.fullmatch(pattern, path.name)
+            if match:
+                steps.setdefault(int(match.group(1)), []).append(path)
+        return steps
+
+    @staticmethod
+    def chosen_step(steps, step):
+        if step is None:
+            return max(steps)
+        if step not in steps:
+            raise ResultsError(f"--step {step}: not written; there are {', '.join(map(str, sorted(steps)))}")
+        return step
+
+    def mesh(self, step):
+        return BodyMesh(self.body_files[step])
+
+    def contact(self, step):
+        return read_table(self.contact_files[step][0])
+
+    def history(self):
+        return read_table(self.directory / "history.csv")
+
+    def read_parameters(self):
+        """The resolved parameters as {"Section/Subsection/Key": text}."""
+        entries, path = {}, []
+        file = self.directory / "parameters.prm"
+        for line in file.read_text(encoding="utf-8").splitlines() if file.exists() else []:
+            line = line.split("#")[0].strip()
+            if line.startswith("subsection "):
+                path.append(line[len("subsection "):].strip())
+            elif line == "end":
+                path.pop()
+            elif line.startswith("set "):
+                key, _, value = line[len("set "):].partition("=")
+                entries["/".join(path + [key.strip()])] = value.strip()
+        return entries
+
+    def names(self, section):
+        text = self.parameters.get(f"{section}/Names", "")
+        return [name.strip() for name in text.split(",") if name.strip()]
+
+    def time_of(self, step):
+        if not self.has_history:
+            return None
+        history = self.history()
+        rows = np.flatnonzero(history["step"] == step)
+        return history["time"][rows[0]] if rows.size else None
+
+    def pairs(self):
+        """Name and friction coefficient (nan without Coulomb friction) of the contact pairs, as numbered in the
+        tables. The log tells which law a pair has."""
+        pairs = []
+        log = self.directory / "log.txt"
+        for line in log.read_text(encoding="utf-8").splitlines() if log.exists() else []:
+            match = re.match(r"Contact (.+): (\w+) \('(.*)'\)", line)
+            if match:
+                name, law, section = match.groups()
+                text = self.parameters.get(f"Contact/{section}/Friction coefficient", "nan")
+                pairs.append((name, float(text) if law == "coulomb" else float("nan")))
+        return pairs

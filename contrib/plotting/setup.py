@@ -1,0 +1,90 @@
+"""What "scree --check" set up: bodies, cells, fitted boundaries, contact surfaces."""
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from .bodies import body_colour, draw_3d, outline
+from .results import BodyMesh
+from .style import COLOURS, figure_for, save, short
+
+
+def draw(run):
+    """Writes setup.png and returns its path."""
+    mesh = run.mesh(0)
+    if mesh.dim == 3:
+        figure, axes, colours = draw_3d(mesh, mesh.points, mesh.fields["body"])
+        figure.colorbar(colours, ax=axes, label="body", shrink=0.85)
+        axes.set_title(run.title + ": set-up")
+        return save(figure, run.directory / "setup.png")
+    points = mesh.points[:, :2]
+    figure, axes = figure_for(points, extra=3.5)
+    handles = draw_cells(axes, mesh, points)
+    edges = outline(mesh)
+    for number in np.unique(mesh.body[edges[:, 0]]):
+        own = edges[mesh.body[edges[:, 0]] == number]
+        names = run.names("Bodies")
+        axes.add_collection(LineCollection(points[own], colors=body_colour(number), linewidths=1.6))
+        handles.append(Line2D([], [], color=body_colour(number), linewidth=1.6,
+                              label=names[number] if number < len(names) else f"body {number}"))
+    handles += draw_conditions(axes, run, mesh, points, edges)
+    if run.contact_files:
+        draw_contact_surface(figure, axes, run.contact(0))
+    axes.set_title(run.title + ": set-up")
+    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return save(figure, run.directory / "setup.png")
+
+
+def draw_cells(axes, mesh, points):
+    """Whole cells by size, cut cells in one colour, cell edges (without the diagonals of cut cells)."""
+    quads = mesh.cells_of(BodyMesh.quadrilateral)
+    handles = []
+    if len(quads):
+        size = np.ptp(points[quads][:, :, 0], axis=1)
+        level = np.rint(np.log2(size.max() / size)).astype(int)
+        for number in np.unique(level):
+            shade = ListedColormap(["#f7f7f7", "#e6edf5", "#d2e0ee", "#bcd2e6", "#a6c3dd", "#8fb3d3"])(min(number, 5))
+            chosen = quads[level == number]
+            axes.add_collection(PolyCollection(points[chosen], facecolors=shade, edgecolors="none"))
+            handles.append(Patch(color=shade, label=f"cells of edge {short(size.max() / 2.0**number)}"))
+    triangles = mesh.cells_of(BodyMesh.triangle)
+    if len(triangles):
+        axes.add_collection(PolyCollection(points[triangles], facecolors="#f6dfb8", edgecolors="none"))
+        handles.append(Patch(color="#f6dfb8", label="cut cells"))
+    edges = mesh.edges()
+    straight = (np.abs(points[edges[:, 0]] - points[edges[:, 1]]) < 1e-7 * mesh.size).any(axis=1)
+    axes.add_collection(LineCollection(points[edges[straight]], colors="#9a9a9a", linewidths=0.25))
+    return handles
+
+
+def draw_conditions(axes, run, mesh, points, edges):
+    """Marks the fitted boundaries with conditions; conditions on cut surfaces are told in the legend only."""
+    handles, number = [], 0
+    corners = [np.array([float(v) for v in run.parameters.get(f"Grid/{corner} corner", "nan,nan").split(",")])
+               for corner in ("Lower", "Upper")]
+    middle = points[edges].mean(axis=1)
+    for index, body in enumerate(run.names("Bodies")):
+        section = f"Bodies/{body}/Boundary conditions"
+        for name in run.names(section):
+            face = run.parameters.get(f"{section}/{name}/On", "")
+            kind = run.parameters.get(f"{section}/{name}/Type", "")
+            where = run.parameters.get(f"{section}/{name}/Where", "1")
+            colour = COLOURS[(number + 3) % len(COLOURS)]
+            text = f"{body}, {name}: {kind} on {face}" + ("" if where == "1" else f" where {where}")
+            handles.append(Line2D([], [], color=colour, linewidth=4, alpha=0.6, label=text))
+            if len(face) == 2 and face[0] in "xy":
+                axis = "xy".index(face[0])
+                plane = corners[face[1] == "+"][axis]
+                own = (mesh.body[edges[:, 0]] == index) & (np.abs(middle[:, axis] - plane) < 1e-6 * mesh.size)
+                axes.add_collection(LineCollection(points[edges[own]], colors=colour, linewidths=5, alpha=0.6))
+            number += 1
+    return handles
+
+
+def draw_contact_surface(figure, axes, contact):
+    if len(contact["x"]) == 0:
+        return
+    dots = axes.scatter(contact["x"], contact["y"], c=contact["gap"], s=9, cmap="plasma", zorder=3, linewidths=0)
+    figure.colorbar(dots, ax=axes, label="initial gap at the contact points", orientation="horizontal",
+                    shrink=0.6, pad=0.02)
