@@ -13,7 +13,8 @@ def outline(mesh):
     """Pairs of point numbers (n, 2) that bound the bodies in 2D.
 
     Cells of different size share parts of edges. All edges inside a body lie on grid lines, or are shared whole:
-    on a grid line the outline is where a single cell covers the line, elsewhere an edge without a partner.
+    on a grid line the outline is where an odd number of cells covers the line (slivers of cut cells may cover it
+    several times), elsewhere it is an edge that occurs an odd number of times.
     """
     points, body, edges = mesh.points[:, :2], mesh.body, mesh.edges()
     tolerance = 1e-7 * mesh.size
@@ -22,14 +23,14 @@ def outline(mesh):
     segments = []
     for along in range(2):
         flat = edges[on_line[:, 1 - along] & ~on_line[:, along]]
-        segments.append(covered_once(points, body, flat, along, tolerance))
+        segments.append(oddly_covered(points, body, flat, along, tolerance))
     slanted = edges[~on_line.any(axis=1)]
     segments.append(without_partner(points, body, slanted, tolerance))
     return np.concatenate(segments)
 
 
-def covered_once(points, body, edges, along, tolerance):
-    """Parts of edges parallel to axis `along` that belong to one cell only."""
+def oddly_covered(points, body, edges, along, tolerance):
+    """Parts of edges parallel to axis `along` that an odd number of cells covers."""
     if len(edges) == 0:
         return np.empty((0, 2), dtype=int)
     swap = points[edges[:, 0], along] > points[edges[:, 1], along]
@@ -41,8 +42,8 @@ def covered_once(points, body, edges, along, tolerance):
     order = np.lexsort((change, place, line, body[ends]))
     covers = np.cumsum(change[order])
     ends, place = ends[order], place[order]
-    once = np.flatnonzero((covers[:-1] == 1) & (place[1:] > place[:-1]))
-    return np.stack([ends[once], ends[once + 1]], axis=1)
+    odd = np.flatnonzero((covers[:-1] % 2 == 1) & (place[1:] > place[:-1]))
+    return np.stack([ends[odd], ends[odd + 1]], axis=1)
 
 
 def without_partner(points, body, edges, tolerance):
@@ -53,7 +54,7 @@ def without_partner(points, body, edges, tolerance):
     _, number = np.unique(key[edges.ravel()], axis=0, return_inverse=True)
     number = np.sort(number.reshape(-1, 2), axis=1)
     _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
-    return edges[first[count == 1]]
+    return edges[first[count % 2 == 1]]
 
 
 def automatic_warp(mesh, contact):
@@ -67,22 +68,27 @@ def automatic_warp(mesh, contact):
         axes = [axis for axis in "xyz" if f"normal_{axis}" in contact]
         closing = sum(contact[f"normal_{axis}"] * contact[f"jump_{axis}"] for axis in axes)
         initial = contact["gap"] - closing
-        shut = (closing < 0.0) & (initial > -0.005 * mesh.size)
+        shut = (closing < 0.0) & (initial > -0.0025 * mesh.size)
         if shut.any():
-            warp = min(warp, ((initial[shut] + 0.005 * mesh.size) / -closing[shut]).min())
+            warp = min(warp, ((initial[shut] + 0.0025 * mesh.size) / -closing[shut]).min())
     return nice_number_below(max(warp, 1.0))
 
 
-def limits(mesh, values):
+def limits(values):
     """Range of the colours: 99.5% of the points, so that corner singularities do not hide the rest."""
     low, high = np.percentile(values, [0.25, 99.75])
     if low >= 0.0 and low < 0.3 * high:
         low = 0.0
     if high - low <= 1e-12 * max(abs(low), abs(high)):
         high, low = high + 1e-9 * (abs(high) or 1.0), low - 1e-9 * (abs(low) or 1.0)
-    extend = {(0, 0): "neither", (0, 1): "max", (1, 0): "min", (1, 1): "both"}
-    return low, high, extend[(int(values.min() < low - 1e-9 * (high - low)),
-                              int(values.max() > high + 1e-9 * (high - low)))]
+    return low, high
+
+
+def extend(values, low, high):
+    """Which ends of the colour bar are exceeded by the values."""
+    tolerance = 1e-9 * (high - low)
+    return {(False, False): "neither", (False, True): "max", (True, False): "min", (True, True): "both"}[
+        (bool(values.min() < low - tolerance), bool(values.max() > high + tolerance))]
 
 
 def draw(run, field, step, warp):
@@ -104,13 +110,13 @@ def draw(run, field, step, warp):
     axes.set_title(f"{run.title}\n" + (f"time {short(time)}, " if time is not None else "")
                    + f"displacements times {short(factor)}")
     label = LABELS.get(field, field.replace("_", " "))
-    figure.colorbar(colours, ax=axes, label=label, extend=limits(mesh, values)[2], shrink=0.85, pad=0.02)
+    figure.colorbar(colours, ax=axes, label=label, extend=extend(values, *colours.get_clim()), shrink=0.85, pad=0.02)
     return save(figure, run.directory / name)
 
 
 def draw_2d(mesh, deformed, values):
     figure, axes = figure_for(deformed)
-    low, high, _ = limits(mesh, values)
+    low, high = limits(values)
     colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], mesh.triangles()), values,
                              shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
     edges = outline(mesh)
@@ -119,7 +125,7 @@ def draw_2d(mesh, deformed, values):
 
 
 def surface_3d(mesh):
-    """Faces without a partner (n, 3 or 4 points; triangles repeat the last one)."""
+    """Faces that occur an odd number of times (n, 4); triangles repeat a point."""
     tetrahedra, hexahedra = mesh.cells_of(BodyMesh.tetrahedron), mesh.cells_of(BodyMesh.hexahedron)
     faces = [tetrahedra[:, list(f) + [f[2]]] for f in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))]
     faces += [hexahedra[:, list(f)] for f in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5),
@@ -127,8 +133,11 @@ def surface_3d(mesh):
     faces = np.concatenate(faces)
     grid = np.rint(mesh.points / (4e-7 * mesh.size)).astype(np.int64)
     _, number = np.unique(np.column_stack([grid, mesh.body]), axis=0, return_inverse=True)
-    _, first, count = np.unique(np.sort(number[faces], axis=1), axis=0, return_index=True, return_counts=True)
-    return faces[first[count == 1]]
+    number = np.sort(number[faces], axis=1)
+    solid = (np.diff(number, axis=1) > 0).sum(axis=1) >= 2
+    faces, number = faces[solid], number[solid]
+    _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
+    return faces[first[count % 2 == 1]]
 
 
 def draw_3d(mesh, deformed, values):
@@ -147,7 +156,7 @@ def draw_3d(mesh, deformed, values):
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True).clip(1e-300)
     light = 0.65 + 0.35 * np.abs(normal @ (towards + 0.4 * up) / np.linalg.norm(towards + 0.4 * up))
-    low, high, _ = limits(mesh, values)
+    low, high = limits(values[faces])
     colours = PolyCollection(plane[faces], cmap="viridis", rasterized=True)
     colours.set_array(values[faces].mean(axis=1))
     colours.set_clim(low, high)

@@ -51,23 +51,29 @@ def draw_contact(run, step, references):
     table = run.contact(step)
     if len(table["pair"]) == 0:
         return None
-    known = run.pairs()
-    numbers = sorted(set(table["pair"].astype(int)), key=lambda n: -np.sum((table["weight"] * table["pressure"])
-                                                                          [table["pair"] == n]))
-    numbers = sorted(n for n in numbers[:MAX_PANELS])
-    n_columns = 1 if len(numbers) == 1 else 2
-    n_rows = -(-len(numbers) // n_columns)
-    figure, panels = plt.subplots(n_rows, n_columns, squeeze=False, figsize=(7.5 if n_columns == 1 else 12, 4.6 * n_rows))
-    for panel in panels.ravel()[len(numbers):]:
+    friction = run.friction_coefficients()
+    names = pairs_to_draw(table)
+    n_columns = 1 if len(names) == 1 else 2
+    n_rows = -(-len(names) // n_columns)
+    figure, panels = plt.subplots(n_rows, n_columns, squeeze=False,
+                                  figsize=(7.5 if n_columns == 1 else 12, 4.6 * n_rows))
+    for panel in panels.ravel()[len(names):]:
         panel.set_visible(False)
-    for number, panel in zip(numbers, panels.ravel()):
-        chosen = table["pair"] == number
-        title, friction = known[number] if number < len(known) else (f"pair {number}", float("nan"))
-        draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction, references)
-        panel.set_title(title)
+    for pair, panel in zip(names, panels.ravel()):
+        chosen = table["pair"] == pair
+        draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction.get(pair, float("nan")),
+                  references)
+        panel.set_title(pair)
     time = run.time_of(step)
     figure.suptitle(run.title + (f", time {short(time)}" if time is not None else ""))
     return save(figure, run.directory / name)
+
+
+def pairs_to_draw(table):
+    """The pairs with the largest forces, in the order of the table."""
+    names = list(dict.fromkeys(table["pair"]))
+    force = {name: np.sum((table["weight"] * table["pressure"])[table["pair"] == name]) for name in names}
+    return sorted(sorted(names, key=lambda name: -force[name])[:MAX_PANELS], key=names.index)
 
 
 def draw_pair(panel, table, friction, references):
@@ -93,10 +99,26 @@ def draw_pair(panel, table, friction, references):
         margin = max(0.35 * (high - low), 1e-9)
         panel.set_xlim(max(position.min(), low - margin) - 0.02 * (high - low),
                        min(position.max(), high + margin) + 0.02 * (high - low))
-    panel.set_ylim(bottom=min(0.0, pressure.min()), top=1.3 * max(pressure.max(), tau.max(), 1e-300))
+    top, peak = upper_limit(table), max(pressure.max(), tau.max())
+    panel.set_ylim(bottom=min(0.0, pressure.min()), top=top)
+    if peak > top:
+        panel.annotate(f"up to {short(peak)}", (1.0, 1.0), xycoords="axes fraction", ha="right", va="bottom",
+                       fontsize=9)
     panel.set_xlabel(label)
     panel.set_ylabel("traction")
     panel.legend(loc="upper center", ncol=2)
+
+
+def upper_limit(table):
+    """Room for the curves and the legend; peaks at corners that rise far above 95% of the surface are cut off."""
+    traction = np.maximum(table["pressure"], np.hypot(table["tau_x"], table["tau_y"]))
+    closed = np.flatnonzero(table["status"] > 0)
+    if not closed.size or traction.max() <= 0.0:
+        return 1.0
+    order = closed[np.argsort(traction[closed])]
+    covered = np.cumsum(table["weight"][order])
+    usual = traction[order[np.searchsorted(covered, 0.95 * covered[-1])]]
+    return 1.3 * traction.max() if traction.max() < 4.0 * usual else 3.0 * usual
 
 
 def draw_pair_3d(panel, table):
@@ -133,17 +155,41 @@ def draw_history(run):
     for panel in panels.ravel()[len(groups):]:
         panel.set_visible(False)
     for (title, names), panel in zip(groups.items(), panels.ravel()):
-        for number, name in enumerate(names):
-            label = name.replace("energy.", "").replace(".force_", ", ").replace(".", ", ").replace("_", " ")
-            panel.plot(time, history[name], linestyle=["-", "--", ":"][number // len(COLOURS) % 3],
-                       marker="o" if len(time) < 30 else "", markersize=4, label=label)
+        labels = [name.replace("energy.", "").replace(".force_", ", ").replace(".", ", ").replace("_", " ")
+                  for name in names]
+        quantity = units.get(title, "energy" if title == "Energies" else "force")
+        if len(time) == 1:
+            draw_bars(panel, labels, [history[name][0] for name in names], quantity)
+        else:
+            draw_lines(panel, time, labels, [history[name] for name in names], quantity)
         panel.set_title(title)
-        panel.set_xlabel("time")
-        panel.set_ylabel(units.get(title, "energy" if title == "Energies" else "force"))
-        panel.ticklabel_format(axis="y", scilimits=(-3, 4))
-        panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     figure.suptitle(run.title)
     return save(figure, run.directory / "history.png")
+
+
+def draw_lines(panel, time, labels, curves, quantity):
+    for number, (label, curve) in enumerate(zip(labels, curves)):
+        dashed = label == "external work"  # often on top of the strain energy
+        panel.plot(time, curve, linestyle=["--" if dashed else "-", "--", ":"][number // len(COLOURS) % 3],
+                   marker="o" if len(time) < 30 else "", markersize=4, label=label)
+    panel.set_xlabel("time")
+    panel.set_ylabel(quantity)
+    panel.ticklabel_format(axis="y", scilimits=(-3, 4))
+    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def draw_bars(panel, labels, values, quantity):
+    """A single step: a bar for each value."""
+    places = np.arange(len(labels))
+    panel.barh(places, values, height=0.6, color=[COLOURS[place % len(COLOURS)] for place in places])
+    for place, value in zip(places, values):
+        panel.annotate(short(value), (value, place), xytext=(4 if value >= 0.0 else -4, 0), va="center", fontsize=9,
+                       textcoords="offset points", ha="left" if value >= 0.0 else "right")
+    panel.set_yticks(places, labels)
+    panel.set_ylim(max(len(labels), 4) - 0.5, -0.5)
+    panel.margins(x=0.2, y=0)
+    panel.axvline(0.0, color="black", linewidth=0.8)
+    panel.set_xlabel(quantity)
 
 
 def visible(history, names):

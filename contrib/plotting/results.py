@@ -10,15 +10,24 @@ class ResultsError(Exception):
 
 
 def read_table(path):
-    """A CSV file with a header as {column name: array}; lines that start with # are comments."""
-    with open(path, encoding="utf-8") as file:
-        lines = [line for line in file if line.strip() and not line.startswith("#")]
+    """A CSV file with a header as {column name: array of numbers, or of text}; lines with # are comments."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            lines = [line for line in file if line.strip() and not line.startswith("#")]
+    except OSError as error:
+        raise ResultsError(f"{path}: {error.strerror}") from error
     if not lines:
         raise ResultsError(f"{path}: the file is empty")
     names = [name.strip() for name in lines[0].split(",")]
-    rows = [[float(value or "nan") for value in line.split(",")] for line in lines[1:]]
-    values = np.array(rows).reshape(len(rows), len(names))
-    return {name: values[:, i] for i, name in enumerate(names)}
+    columns = list(zip(*(line.rstrip("\r\n").split(",") for line in lines[1:]))) or [()] * len(names)
+    return dict(zip(names, map(numbers_or_text, columns)))
+
+
+def numbers_or_text(words):
+    try:
+        return np.array([float(word or "nan") for word in words])
+    except ValueError:
+        return np.array([word.strip() for word in words])
 
 
 class ReferenceCurve:
@@ -195,15 +204,14 @@ class RunResults:
         rows = np.flatnonzero(history["step"] == step)
         return history["time"][rows[0]] if rows.size else None
 
-    def pairs(self):
-        """Name and friction coefficient (nan without Coulomb friction) of the contact pairs, as numbered in the
-        tables. The log tells which law a pair has."""
-        pairs = []
+    def friction_coefficients(self):
+        """{name: friction coefficient} of the contact pairs, nan without Coulomb friction; the log tells the law."""
+        pairs = {}
         log = self.directory / "log.txt"
         for line in log.read_text(encoding="utf-8").splitlines() if log.exists() else []:
             match = re.match(r"Contact (.+): (\w+) \('(.*)'\)", line)
             if match:
                 name, law, section = match.groups()
                 text = self.parameters.get(f"Contact/{section}/Friction coefficient", "nan")
-                pairs.append((name, float(text) if law == "coulomb" else float("nan")))
+                pairs[name] = float(text) if law == "coulomb" else float("nan")
         return pairs

@@ -30,7 +30,7 @@ def draw(run):
                               label=names[number] if number < len(names) else f"body {number}"))
     handles += draw_conditions(axes, run, mesh, points, edges)
     if run.contact_files:
-        draw_contact_surface(figure, axes, run.contact(0))
+        handles += draw_contact_surface(figure, axes, run.contact(0), mesh.size)
     axes.set_title(run.title + ": set-up")
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return save(figure, run.directory / "setup.png")
@@ -71,6 +71,12 @@ def draw_conditions(axes, run, mesh, points, edges):
             kind = run.parameters.get(f"{section}/{name}/Type", "")
             where = run.parameters.get(f"{section}/{name}/Where", "1")
             colour = COLOURS[(number + 3) % len(COLOURS)]
+            if kind == "point support":
+                place = [float(value) for value in run.parameters[f"{section}/{name}/Point"].split(",")]
+                handles += axes.plot(*place, marker="^", markersize=9, color=colour, linestyle="", clip_on=False,
+                                     zorder=4, label=f"{body}, {name}: {kind}")
+                number += 1
+                continue
             text = f"{body}, {name}: {kind} on {face}" + ("" if where == "1" else f" where {where}")
             handles.append(Line2D([], [], color=colour, linewidth=4, alpha=0.6, label=text))
             if len(face) == 2 and face[0] in "xy":
@@ -82,9 +88,15 @@ def draw_conditions(axes, run, mesh, points, edges):
     return handles
 
 
-def draw_contact_surface(figure, axes, contact):
-    if len(contact["x"]) == 0:
-        return
-    dots = axes.scatter(contact["x"], contact["y"], c=contact["gap"], s=9, cmap="plasma", zorder=3, linewidths=0)
+def draw_contact_surface(figure, axes, contact, size):
+    """Contact points coloured by the initial gap; its legend if there is no gap at all."""
+    gap = contact["gap"]
+    if len(gap) == 0:
+        return []
+    if np.abs(gap).max() < 1e-7 * size:
+        axes.plot(contact["x"], contact["y"], ".", markersize=4, color="#0d0887", zorder=3)
+        return [Line2D([], [], color="#0d0887", marker=".", linestyle="", label="contact points, no initial gap")]
+    dots = axes.scatter(contact["x"], contact["y"], c=gap, s=9, cmap="plasma", zorder=3, linewidths=0)
     figure.colorbar(dots, ax=axes, label="initial gap at the contact points", orientation="horizontal",
-                    shrink=0.6, pad=0.02)
+                    shrink=0.6, aspect=40, pad=0.02)
+    return []

@@ -1,6 +1,7 @@
 """What all pictures share."""
 import matplotlib.pyplot as plt
 
+TALLEST = 6.5  # inches
 COLOURS = ["#1f5fa8", "#c8452e", "#2f8f4e", "#8a56a8", "#b8860b", "#4c9aa8", "#7a5c43", "#d0719f"]
 
 plt.rcParams.update({
@@ -14,9 +15,9 @@ def figure_for(points, width=8.0, extra=1.2):
     """A figure and axes of equal scale, shaped like the box around `points` (n, 2)."""
     low, high = points.min(axis=0), points.max(axis=0)
     extent = (high - low).clip(1e-12 * max((high - low).max(), 1e-300))
-    height = min(max(width * extent[1] / extent[0], 2.2), 9.0)
-    if height == 9.0:
-        width = min(max(9.0 * extent[0] / extent[1] + 1.5, 4.5), width)
+    height = min(max(width * extent[1] / extent[0], 2.2), TALLEST)
+    if height == TALLEST:
+        width = min(max(TALLEST * extent[0] / extent[1] + 1.5, 4.5), width)
     figure, axes = plt.subplots(figsize=(width + extra, height + 0.9))
     margin = 0.03 * extent.max()
     axes.set_xlim(low[0] - margin, high[0] + margin)
@@ -29,7 +30,7 @@ def figure_for(points, width=8.0, extra=1.2):
 
 
 def save(figure, path):
-    figure.savefig(path)
+    figure.savefig(path, bbox_inches="tight", pad_inches=0.1)
     plt.close(figure)
     return path
 

@@ -22,6 +22,7 @@ OutputParameters<dim>::declare(ParameterSection &section)
   section.entry("Contact every", contact_every,
                 "The contact surface is written as CSV and VTU after every so many load steps; 0: "
                 "never.");
+  section.entry("Log iterations", log_iterations, "Write a line per Newton iteration to the log.");
   ParameterSection probe_section
     = section.subsection("Probes", "Points and lines where fields are tabulated.");
   for (auto &[name, subsection] : probe_section.named("Names", "Names of points and lines."))

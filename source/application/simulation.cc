@@ -271,10 +271,13 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
                     equilibrium->round_off() / parameters.newton.relative_tolerance);
   };
   hooks.observe = [&](const NewtonIteration &iteration) {
+    const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
+                             + short_number(iteration.residual) + " of "
+                             + short_number(iteration.tolerance);
+    if (parameters.output.log_iterations)
+      log.line("  " + text + ", step length " + short_number(iteration.step_length));
     log.progress(step_control.time() / parameters.time.end_time,
-                 "step " + std::to_string(record.step) + ", iteration "
-                   + std::to_string(iteration.number) + ", residual "
-                   + short_number(iteration.residual) + " of " + short_number(iteration.tolerance));
+                 "step " + std::to_string(record.step) + ", " + text);
   };
   equilibrium->set_time(time, u);
   return Newton(parameters.newton, hooks).solve(u);

@@ -12,6 +12,7 @@ namespace
 // The constants that newton.h documents.
 constexpr double       armijo               = 1e-4;
 constexpr unsigned int max_halvings         = 8;
+constexpr double       good_reduction       = 0.3;
 constexpr double       work_reduction       = 0.8;
 constexpr unsigned int max_work_evaluations = 6;
 constexpr double       divergence_factor    = 1e8;
@@ -85,9 +86,12 @@ Newton::evaluate(Step &step, const double alpha, const Vector &u, const Vector &
 Newton::Step
 Newton::search_residual(Step step, const Vector &u, const Vector &du, const double norm) const
 {
-  double best_alpha = step.alpha, best_norm = step.norm;
-  for (unsigned int k = 0; k < max_halvings && !(step.norm <= (1 - armijo * step.alpha) * norm);
-       ++k)
+  double     best_alpha = step.alpha, best_norm = step.norm;
+  const auto is_wanted = [&]() {
+    const bool is_enough = step.norm <= (1 - armijo * step.alpha) * norm;
+    return !is_enough || (step.norm <= best_norm && step.norm > good_reduction * norm);
+  };
+  for (unsigned int k = 0; k < max_halvings && is_wanted(); ++k)
     {
       evaluate(step, step.alpha / 2, u, du);
       if (!(best_norm <= step.norm))

@@ -18,8 +18,9 @@ namespace scree
 template <int dim>
 struct OutputParameters
 {
-  unsigned int                      fields_every  = 1; //!< VTU of the bodies, 0: never
-  unsigned int                      contact_every = 1; //!< CSV and VTU of contact, 0: never
+  unsigned int fields_every   = 1;     //!< VTU of the bodies, 0: never
+  unsigned int contact_every  = 1;     //!< CSV and VTU of contact, 0: never
+  bool         log_iterations = false; //!< a line in the log per Newton iteration
   std::vector<ProbeParameters<dim>> probes;
 
   void declare(ParameterSection &section);

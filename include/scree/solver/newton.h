@@ -29,7 +29,7 @@ struct NewtonParameters
 
   unsigned int max_iterations = 25;
 
-  LineSearch line_search = LineSearch::work;
+  LineSearch line_search = LineSearch::residual;
 
   /** Reads the entries of the section and records what is not allowed. */
   void declare(const ParameterSection &section);
@@ -101,12 +101,12 @@ struct NewtonResult
  * of the last two iterations, and the last increment was at most 1e-10 |u|_2.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
- * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)|, and otherwise takes the best alpha it tried (Armijo
- * with the merit function |r|). `work` looks at G(alpha) = r(u + alpha du) . du: where G(1) has the
- * opposite sign of G(0) and |G(1)| > 0.8 |G(0)|, the step went too far, and a zero of G is enclosed
- * by the Illinois variant of regula falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most
- * (Matthies, Strang, Int. J. Numer. Meth. Engng 14, 1979, 1613-1626). In all cases a step to a
- * residual that is not finite is halved.
+ * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
+ * while that lowers |r| and |r| > 0.3 |r(u)|; it takes the best alpha it tried. `work` looks at
+ * G(alpha) = r(u + alpha du) . du: where G(1) has the opposite sign of G(0) and |G(1)| > 0.8
+ * |G(0)|, the step went too far, and a zero of G is enclosed by the Illinois variant of regula
+ * falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most (Matthies, Strang, Int. J. Numer.
+ * Meth. Engng 14, 1979, 1613-1626). In all cases a step to a residual that is not finite is halved.
  *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and

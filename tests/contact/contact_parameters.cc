@@ -1,0 +1,93 @@
+// Which law belongs to a pair of bodies.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/contact/contact_parameters.h>
+#include <scree/parameters/file.h>
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+ContactParameters
+contact(const std::string &text)
+{
+  ParameterFile     file    = ParameterFile::from_string("subsection Contact\n" + text + "\nend\n");
+  ParameterSection  section = file.root().subsection("Contact", "");
+  ContactParameters result;
+  result.declare(section, {"block", "grain 1", "grain 2", "wall"});
+  file.check();
+  return result;
+}
+
+std::string
+message(const std::string &text)
+{
+  try
+    {
+      contact(text);
+    }
+  catch (const UserError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+void
+expect_contains(const std::string &text, const std::string &part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+}
+
+TEST(ContactParameters, FrictionlessWithoutLaws)
+{
+  const auto law = contact("").law_of("block", "wall");
+  EXPECT_EQ(law.law, ContactLaw::frictionless);
+  EXPECT_EQ(law.normal_factor, 10.);
+}
+
+TEST(ContactParameters, LastMatchCountsInEitherOrder)
+{
+  const auto parameters = contact("set Names = default, grains, special\n"
+                                  "subsection default\n set Friction coefficient = 0.1\nend\n"
+                                  "subsection grains\n set Bodies = grain*, grain*\n"
+                                  " set Law = stick\nend\n"
+                                  "subsection special\n set Bodies = wall, *2\n"
+                                  " set Law = tied\nend\n");
+  EXPECT_EQ(parameters.law_of("block", "wall").name, "default");
+  EXPECT_EQ(parameters.law_of("block", "wall").friction_coefficient, 0.1);
+  EXPECT_EQ(parameters.law_of("grain 1", "grain 2").name, "grains");
+  EXPECT_EQ(parameters.law_of("grain 1", "wall").name, "default");
+  EXPECT_EQ(parameters.law_of("grain 2", "wall").name, "special");
+  EXPECT_EQ(parameters.law_of("wall", "grain 2").name, "special");
+}
+
+TEST(ContactParameters, WildcardsStandForAnyText)
+{
+  ContactPairParameters law;
+  law.bodies = {"g*n*", "*"};
+  EXPECT_TRUE(law.matches("grain 1", "x"));
+  EXPECT_TRUE(law.matches("x", "gn"));
+  EXPECT_FALSE(law.matches("grai", "block"));
+  law.bodies = {"a", "b"};
+  EXPECT_FALSE(law.matches("a", "a"));
+  EXPECT_FALSE(law.matches("ab", "b"));
+}
+
+TEST(ContactParameters, WrongLawsAreExplained)
+{
+  expect_contains(message("set Names = f\nsubsection f\nend"), "needs a friction coefficient");
+  expect_contains(
+    message("set Names = f\nsubsection f\n set Law = tied\n set Friction coefficient = 1\nend"),
+    "the law tied has no friction coefficient");
+  expect_contains(
+    message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block, blok\nend"),
+    "no body is called 'blok'");
+  expect_contains(
+    message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block\nend"), "two names");
+}
+} // namespace
+} // namespace scree

@@ -1,0 +1,226 @@
+// The intermediate surface between two bodies: where it is, gaps, normals, jumps.
+#include <gtest/gtest.h>
+
+#include <scree/contact/contact_points.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "../discretization/cut_bodies.h"
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+using Vector = TrilinosWrappers::MPI::Vector;
+
+template <int dim>
+ContactPoints<dim>
+contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless)
+{
+  std::vector<ContactPair> pairs;
+  for (const auto &[a, b] : model.pairs)
+    {
+      ContactPairParameters parameters;
+      parameters.law = law;
+      pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
+    }
+  return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                            CutBodies<dim>::shift * model.grid.finest_size());
+}
+
+/** u with values body by body, ghosted wherever the stencils reach. */
+template <int dim>
+Vector
+displacement(const CutBodies<dim>                                                     &model,
+             const ContactPoints<dim>                                                 &contact,
+             const std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)> &value)
+{
+  const Fields<dim> &fields = *model.fields;
+  Vector             owned(fields.owned(), MPI_COMM_WORLD);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    {
+      const auto &cell = model.grid.cells()[fields.cells()[a].grid_cell];
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (fields.owned().is_element(fields.nodes(a)[i] + d))
+            owned(fields.nodes(a)[i] + d)
+              = value(fields.cells()[a].body,
+                      cell.lower + cell.size * Tensor<1, dim>(fields.basis.node(i)))[d];
+    }
+  owned.compress(VectorOperation::insert);
+  IndexSet relevant = fields.relevant();
+  for (const auto &nodes : contact.couplings())
+    for (const DofIndex node : nodes)
+      relevant.add_range(node, node + dim);
+  relevant.compress();
+  Vector result(fields.owned(), relevant, MPI_COMM_WORLD);
+  result = owned;
+  return result;
+}
+
+/** Two half spaces with a plane gap, turned by an angle whose tangent is `slope`. */
+std::string
+two_half_planes(const double slope, const double gap, const unsigned int degree,
+                const std::string &refinement = "")
+{
+  const auto number = [](const double x) { return std::to_string(x); };
+  const double norm = std::sqrt(1. + slope * slope);
+  return grid_text("-1, -1", "1, 1", "4, 4", 3, refinement) + degree_text(degree)
+         + bodies_text(
+           {{"lower", half_space_text("0, 0.013", number(-slope) + ", 1")},
+            {"upper", half_space_text("0, " + number(0.013 + gap * norm), number(slope) + ", -1")}});
+}
+
+void
+check_plane(const double slope, const unsigned int degree, const std::string &refinement = "")
+{
+  constexpr double         gap = 0.02;
+  const CutBodies<2>       model(two_half_planes(slope, gap, degree, refinement));
+  const ContactPoints<2>   contact = contact_points(model);
+  const Tensor<1, 2>       normal({-slope / std::sqrt(1. + slope * slope),
+                                   1. / std::sqrt(1. + slope * slope)});
+  double                   length = 0.;
+  for (const auto &point : contact.points())
+    {
+      length += point.weight;
+      EXPECT_LE((point.normal - normal).norm(), 1e-6);
+      EXPECT_NEAR(point.initial_gap, gap, 2e-6);
+      EXPECT_NEAR(point.position[1], 0.013 + slope * point.position[0]
+                                       + 0.5 * gap * std::sqrt(1. + slope * slope), 2e-6);
+    }
+  // The plane leaves the box through x = +-1.
+  EXPECT_NEAR(Utilities::MPI::sum(length, MPI_COMM_WORLD), 2. * std::sqrt(1. + slope * slope),
+              1e-5);
+}
+
+TEST(ContactPoints, PlaneBetweenHalfPlanes)
+{
+  for (const unsigned int degree : {1, 2})
+    for (const double slope : {0., 0.3})
+      check_plane(slope, degree);
+}
+
+TEST(ContactPoints, PlaneOnGradedGrid)
+{
+  check_plane(0.3, 1, graded_text(0));
+  check_plane(0.3, 2, graded_text(1));
+}
+
+template <int dim>
+void
+check_jumps(const CutBodies<dim> &model)
+{
+  ContactPoints<dim> contact = contact_points(model);
+  ASSERT_GT(Utilities::MPI::sum(contact.points().size(), MPI_COMM_WORLD), 8u);
+  // u_b - u_a at the projected points, which lie half the gap beside the contact point.
+  Tensor<1, dim> translation;
+  for (unsigned int d = 0; d < dim; ++d)
+    translation[d] = 0.1 * (d + 1.);
+  const Vector u = displacement<dim>(model, contact, [&](const unsigned int body, const auto &x) {
+    return body == 0 ? Tensor<1, dim>(x) : Tensor<1, dim>(3. * x + translation);
+  });
+  contact.evaluate(u, contact.initial_history());
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto          &point = contact.points()[i];
+      const Tensor<1, dim> foot_a(point.position - 0.5 * point.initial_gap * point.normal);
+      const Tensor<1, dim> foot_b(point.position + 0.5 * point.initial_gap * point.normal);
+      EXPECT_LE((contact.jumps()[i] - (3. * foot_b + translation - foot_a)).norm(), 1e-5);
+      EXPECT_NEAR(contact.gap(i), point.initial_gap + point.normal * contact.jumps()[i], 1e-14);
+    }
+}
+
+TEST(ContactPoints, JumpOfLinearFields)
+{
+  check_jumps(CutBodies<2>(two_half_planes(0.3, 0.02, 1)));
+  check_jumps(CutBodies<2>(two_half_planes(0.3, 0.02, 2, graded_text(1))));
+  // A gap of several cells: the projections leave the cell of the contact point.
+  check_jumps(CutBodies<2>(two_half_planes(0.1, 0.3, 1)));
+}
+
+TEST(ContactPointsMPI, JumpOfLinearFields)
+{
+  check_jumps(CutBodies<2>(two_half_planes(0.3, 0.02, 1)));
+  check_jumps(CutBodies<2>(two_half_planes(0.1, 0.3, 2, graded_text(1))));
+  check_plane(0.3, 2, graded_text(1));
+}
+
+TEST(ContactPoints, JumpOfLinearFields3D)
+{
+  check_jumps(CutBodies<3>(
+    grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1) + degree_text(1)
+    + bodies_text({{"lower", half_space_text("0, 0, 0.013", "0.1, 0.2, 1")},
+                   {"upper", half_space_text("0, 0, 0.063", "-0.1, -0.2, -1")}})));
+}
+
+TEST(ContactPoints, SurfaceOnGridLineIsCountedOnce)
+{
+  // The bodies touch on a grid line: the surface belongs to the cells of one side.
+  for (const unsigned int degree : {1, 2})
+    {
+      const CutBodies<2> model(
+        grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(degree)
+        + bodies_text({{"lower", half_space_text("0, 0", "0, 1")},
+                       {"upper", half_space_text("0, 0", "0, -1")}}));
+      double length = 0.;
+      for (const auto &point : contact_points(model).points())
+        length += point.weight;
+      EXPECT_NEAR(length, 2., 1e-12);
+    }
+}
+
+TEST(ContactPoints, OverlapIsNegativeGap)
+{
+  const CutBodies<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 3) + degree_text(2)
+    + bodies_text({{"left", ball_text("-0.4, 0", 0.41)}, {"right", ball_text("0.4, 0", 0.42)}}));
+  const auto contact  = contact_points(model);
+  double     smallest = 1.;
+  for (const auto &point : contact.points())
+    smallest = std::min(smallest, point.initial_gap);
+  EXPECT_NEAR(smallest, -0.03, 1e-4);
+}
+
+TEST(ContactPoints, HistoryIsWhatWasEvaluated)
+{
+  const CutBodies<2> model(two_half_planes(0., 0.0004, 1));
+  ContactPoints<2>   contact = contact_points(model, ContactLaw::stick);
+  const Vector       u = displacement<2>(model, contact, [](const unsigned int body, const auto &) {
+    return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({0.01, -0.02});
+  });
+  contact.evaluate(u, contact.initial_history());
+  const auto history = contact.current_history();
+  ASSERT_FALSE(history.tau.empty());
+  const double eps_t = 10. * 1000. / model.grid.finest_size();
+  EXPECT_NEAR(contact.eps_t(0), eps_t, 1e-9 * eps_t);
+  for (unsigned int i = 0; i < history.tau.size(); ++i)
+    {
+      EXPECT_NEAR(history.tau[i][0], -0.01 * eps_t, 1e-8 * eps_t);
+      EXPECT_NEAR(history.jump[i][1], -0.02, 1e-12);
+    }
+}
+
+TEST(ContactPoints, CellsAroundContactHaveOneLevel)
+{
+  const CutBodies<2> model(
+    grid_text("-1, -1", "1, 1", "2, 2", 6, graded_text(1)) + degree_text(1)
+    + bodies_text({{"left", ball_text("-0.4, 0.01", 0.4)}, {"right", ball_text("0.4, 0", 0.4)}}));
+  EXPECT_TRUE(model.grid.triangulation().has_hanging_nodes());
+  const double h = model.grid.finest_size();
+  for (const auto &point : contact_points(model).points())
+    {
+      if (point.initial_gap > 2. * h)
+        continue;
+      for (const double dx : {-h, 0., h})
+        for (const double dy : {-h, 0., h})
+          {
+            const auto here = model.grid.locate(point.position + Tensor<1, 2>({dx, dy}));
+            EXPECT_EQ(model.grid.cells()[here.local_cell].size, h);
+          }
+    }
+}
+} // namespace
+} // namespace scree

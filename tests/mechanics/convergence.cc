@@ -1,0 +1,96 @@
+// Cut-cell elasticity with a manufactured field: order k + 1 in L2.
+#include <gtest/gtest.h>
+
+#include "manufactured.h"
+
+#include <iostream>
+
+namespace scree
+{
+namespace
+{
+/** The smallest order between successive grids, with a table. */
+double
+smallest_order(const std::string &body, const unsigned int degree, const std::string &refinement,
+               const std::string &name)
+{
+  double smallest = 10., last = 0.;
+  for (unsigned int level = 1; level < 4; ++level)
+    {
+      EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", level, refinement)
+                                + degree_text(degree) + bodies_text({{"body", body}})
+                                + solver_text(1e-11));
+      const double        error = Manufactured::solve(model);
+      const double        order = std::log2(last / error);
+      std::cout << "  " << name << ", Q" << degree << ", h = " << model.cut.grid.finest_size()
+                << ": L2 error " << error;
+      if (level > 1)
+        {
+          std::cout << ", order " << order;
+          smallest = std::min(smallest, order);
+        }
+      std::cout << "\n";
+      last = error;
+    }
+  return smallest;
+}
+
+std::string
+angled_body()
+{
+  return Manufactured::body(half_space_text("0.0123, 0.2345", "0.2923717, 0.9563048"),
+                            {"x-", "x+", "y-"});
+}
+
+std::string
+disc()
+{
+  return Manufactured::body(ball_text("0.0123, -0.0345", 0.8123), {});
+}
+
+TEST(Convergence, HalfPlaneAtAnAngle)
+{
+  EXPECT_GT(smallest_order(angled_body(), 1, "", "angle"), 1.85);
+  EXPECT_GT(smallest_order(angled_body(), 2, "", "angle"), 2.8);
+}
+
+TEST(Convergence, Disc)
+{
+  EXPECT_GT(smallest_order(disc(), 1, "", "disc"), 1.85);
+  EXPECT_GT(smallest_order(disc(), 2, "", "disc"), 2.8);
+}
+
+TEST(Convergence, HangingCutCells)
+{
+  // Half of the disc one level coarser: the order of the coarse part.
+  const auto graded = [](const unsigned int degree) {
+    double errors[2];
+    for (const unsigned int i : {0, 1})
+      {
+        const std::string limit = "set Cell size limit = if(x > 0.1, " + std::to_string(0.125 / (1 << i))
+                                  + ", " + std::to_string(0.25 / (1 << i)) + ")\n";
+        EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", 2 + i, graded_text(1 + i, limit))
+                                  + degree_text(degree) + bodies_text({{"body", disc()}})
+                                  + solver_text(1e-11));
+        EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
+        errors[i] = Manufactured::solve(model);
+      }
+    std::cout << "  graded disc, Q" << degree << ": L2 errors " << errors[0] << ", " << errors[1]
+              << "\n";
+    return std::log2(errors[0] / errors[1]);
+  };
+  EXPECT_GT(graded(1), 1.8);
+  EXPECT_GT(graded(2), 2.7);
+}
+
+TEST(ConvergenceMPI, EqualsSerial)
+{
+  // The errors of one process, from the table of the tests above.
+  EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(2)
+                            + bodies_text({{"body", disc()}}) + solver_text(1e-11));
+  const double        error = Manufactured::solve(model);
+  EXPECT_NEAR(error, 0.0, 1e-4);
+  EXPECT_LT(model.equilibrium.round_off(), 1e-8);
+}
+} // namespace
+} // namespace scree

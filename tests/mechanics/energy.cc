@@ -1,0 +1,200 @@
+// Energies and resultants: what the loads did is stored, and forces and moments balance.
+#include <gtest/gtest.h>
+
+#include "equilibrium_model.h"
+
+#include <iostream>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+/** A disc clipped at the bottom under all kinds of linear conditions; loads grow with t. */
+std::string
+loaded_disc(const unsigned int degree, const std::string &refinement, const std::string &method)
+{
+  return grid_text("-1, -1", "1, 1", "4, 4", 2, refinement) + degree_text(degree)
+         + bodies_text(
+           {{"disc",
+             "set Body force = 3*t; -20*t*(1+x)\n" + ball_text("0.01, -0.3", 0.9123)
+               + conditions_text(
+                 {{"base", "set On = y-\nset Value = 0.01*t; 0.02*t*x"},
+                  {"held", "set On = surface\nset Where = x > 0.5\nset Components = y\n"
+                           "set Method = " + method + "\nset Value = 0.03*t*(1+y)"},
+                  {"pulled", "set Type = traction\nset On = surface\nset Where = y > 0.4\n"
+                             "set Value = 5*t; 7*t*x"},
+                  {"pressed", "set Type = pressure\nset On = surface\nset Where = x < -0.5\n"
+                              "set Value = 4*t"},
+                  {"sprung", "set Type = springs\nset On = surface\nset Where = y > 0\n"
+                             "set Components = x\nset Value = 200"}})}})
+         + solver_text(1e-12);
+}
+
+void
+check_balance(const std::string &text, const unsigned int n_steps)
+{
+  EquilibriumModel<2> model(text);
+  for (unsigned int i = 1; i <= n_steps; ++i)
+    {
+      const auto result = model.step(double(i) / n_steps);
+      ASSERT_TRUE(result.converged()) << result.message;
+    }
+  const Energies &energies = model.equilibrium.energies();
+  std::cout << "  work " << energies.external_work << ", strain " << energies.strain << ", ghost "
+            << energies.ghost_penalty << ", boundary " << energies.boundary << ", error "
+            << energies.balance_error() << "\n";
+  EXPECT_GT(energies.strain, 0.);
+  EXPECT_GT(std::abs(energies.boundary), 0.);
+  EXPECT_LE(std::abs(energies.balance_error()), 1e-10 * energies.external_work);
+}
+
+TEST(Energy, LinearProblemsBalance)
+{
+  for (const unsigned int degree : {1, 2})
+    for (const std::string &refinement : {std::string(), graded_text(1, "set Cell size limit = if(x > 0.1, 0.125, 1)\n")})
+      check_balance(loaded_disc(degree, refinement, "nitsche"), 2);
+}
+
+TEST(Energy, PenaltyAndProportionalStepsBalance)
+{
+  check_balance(loaded_disc(1, "", "penalty"), 1);
+  check_balance(loaded_disc(1, "", "penalty"), 3);
+}
+
+TEST(EnergyMPI, LinearProblemsBalance)
+{
+  check_balance(loaded_disc(2, "", "nitsche"), 2);
+}
+
+/** Sum of the resultants on the body, with the body force of loaded_disc() at t = 1. */
+template <int dim>
+void
+check_resultants(EquilibriumModel<dim> &model, const std::string &body_force)
+{
+  const auto result = model.step(1.);
+  ASSERT_TRUE(result.converged()) << result.message;
+  Tensor<1, dim> force;
+  Tensor<1, 3>   moment;
+  double         size = 0.;
+  const auto     resultants = model.equilibrium.resultants(model.state.displacement);
+  ASSERT_EQ(resultants.size(), model.equilibrium.condition_names().size());
+  for (unsigned int i = 0; i < resultants.size(); ++i)
+    {
+      force += resultants[i].force;
+      moment += resultants[i].moment;
+      size += resultants[i].force.norm();
+    }
+  const Expression<dim> density(body_force, dim, "body force");
+  const auto           &fields = *model.cut.fields;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const auto &cell = model.cut.grid.cells()[fields.cells()[a].grid_cell];
+      const auto  add  = [&](const Point<dim> &unit, const double weight) {
+        const Point<dim>     x = cell.lower + cell.size * Tensor<1, dim>(unit);
+        const Tensor<1, dim> f = weight * density.vector(x, 1.);
+        force += f;
+        moment += moment_of<dim>(x, f);
+      };
+      if (fields.cells()[a].is_cut)
+        for (unsigned int q = model.quadrature.bulk.begin[a];
+             q < model.quadrature.bulk.begin[a + 1]; ++q)
+          add(model.quadrature.bulk.points[q], model.quadrature.bulk.weights[q]);
+      else
+        for (unsigned int q = 0; q < model.quadrature.whole_cell.points.size(); ++q)
+          add(model.quadrature.whole_cell.points[q],
+              model.quadrature.whole_cell.weights[q] * std::pow(cell.size, dim));
+    }
+  std::cout << "  forces of size " << size << ": sum " << force.norm() << ", of moments "
+            << moment.norm() << "\n";
+  EXPECT_GT(size, 1.);
+  EXPECT_LE(force.norm(), 1e-8 * size);
+  EXPECT_LE(moment.norm(), 1e-8 * size);
+}
+
+TEST(Resultants, AllConditionsBalance)
+{
+  for (const unsigned int degree : {1, 2})
+    for (const std::string method : {"nitsche", "nonsymmetric nitsche", "penalty"})
+      {
+        EquilibriumModel<2> model(loaded_disc(
+          degree, graded_text(1, "set Cell size limit = if(x > 0.1, 0.125, 1)\n"), method));
+        check_resultants(model, "3*t; -20*t*(1+x)");
+      }
+}
+
+TEST(Resultants, MeanSupportsBalance)
+{
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
+    + bodies_text({{"disc", "set Body force = 3*t; -20*t*(1+x)\n" + ball_text("0.01, -0.3", 0.6)
+                              + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0.3\n"
+                                                          "set Components = x, y, rotation\n"
+                                                          "set Value = 0; 0; 0"}})}})
+    + solver_text(1e-12));
+  check_resultants(model, "3*t; -20*t*(1+x)");
+}
+
+TEST(Energy, MeanSupportsThatMoveBalance)
+{
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
+    + bodies_text({{"disc", ball_text("0.01, -0.3", 0.6)
+                              + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0\n"
+                                                          "set Components = x, y, rotation\n"
+                                                          "set Value = 0; 0; 0"},
+                                                 {"moved", "set Type = mean support\nset Where = x > 0.3\n"
+                                                           "set Components = x\nset Value = 0.01*t"}})}})
+    + solver_text(1e-12));
+  ASSERT_TRUE(model.step(1.).converged());
+  const Energies &energies = model.equilibrium.energies();
+  EXPECT_GT(energies.strain, 0.);
+  EXPECT_LE(std::abs(energies.balance_error()), 1e-10 * energies.strain);
+}
+
+TEST(Resultants, Balance3D)
+{
+  EquilibriumModel<3> model(
+    grid_text("-1, -1, -1", "1, 1, 1", "2, 2, 2", 1) + degree_text(1)
+    + bodies_text(
+      {{"ball", "set Body force = 3*t; -20*t*(1+x); y*t\n" + ball_text("0.01, 0.02, -0.3", 0.9123)
+                  + conditions_text(
+                    {{"base", "set On = z-\nset Value = 0.01*t; 0.02*t*x; 0"},
+                     {"held", "set On = surface\nset Where = x > 0.5\nset Components = y\n"
+                              "set Value = 0.03*t*(1+y)"},
+                     {"pulled", "set Type = traction\nset On = surface\nset Where = z > 0.4\n"
+                                "set Value = 5*t; 7*t*x; 1*t"}})}})
+    + solver_text(1e-12));
+  check_resultants(model, "3*t; -20*t*(1+x); y*t");
+}
+
+TEST(Resultants, ContactBalances)
+{
+  // Each body alone: its conditions against the tractions of the contact surface.
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
+    + bodies_text(
+      {{"block", half_space_text("0, 0", "0, 1") + conditions_text({{"base", "set On = y-"}})},
+       {"disc", ball_text("0, 0.8", 0.8)
+                  + conditions_text({{"top", "set On = y+\nset Value = 0.01*t; -0.02*t"}})}})
+    + contact_text("set Law = coulomb\nset Friction coefficient = 0.4") + solver_text(1e-12));
+  const auto result = model.step(1.);
+  ASSERT_TRUE(result.converged()) << result.message;
+  Tensor<1, 2> on_disc;
+  for (unsigned int i = 0; i < model.contact.points().size(); ++i)
+    on_disc += model.contact.points()[i].weight
+               * model.contact.responses()[i].traction(model.contact.points()[i].normal);
+  const auto resultants = model.equilibrium.resultants(model.state.displacement);
+  ASSERT_EQ(model.equilibrium.condition_names(),
+            (std::vector<std::string>{"block.base", "disc.top"}));
+  EXPECT_GT(on_disc[1], 0.1);
+  EXPECT_LE((resultants[0].force - on_disc).norm(), 1e-8 * on_disc.norm());
+  EXPECT_LE((resultants[1].force + on_disc).norm(), 1e-8 * on_disc.norm());
+  // Closed by a trapezoidal rule of one step: the contact energy is of the balance's size.
+  const Energies &energies = model.equilibrium.energies();
+  EXPECT_GT(energies.contact, 0.);
+  EXPECT_GE(energies.dissipation, 0.);
+}
+} // namespace
+} // namespace scree
