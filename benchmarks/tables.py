@@ -1,7 +1,12 @@
 """What the benchmark scripts share: reading results, fits, integrals of curves, tables."""
 import csv
+import datetime
 import glob
 import os
+import re
+import resource
+import subprocess
+import sys
 
 import numpy as np
 
@@ -62,3 +67,25 @@ def print_table(header, rows):
         print('| ' + ' | '.join(value.ljust(width) for value, width in zip(row, widths)) + ' |')
         if number == 0:
             print('|' + '|'.join('-' * (width + 2) for width in widths) + '|')
+
+
+def run_scree(binary, prm, results, settings=()):
+    """Runs scree with settings 'Section/Key=value'; the unknowns and the CPU seconds."""
+    command = [binary, prm, '--output', results]
+    for setting in settings:
+        command += ['--set', setting]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          stdin=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS='1'))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode != 0:
+        sys.exit(' '.join(command) + '\n' + done.stdout)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return {'unknowns': int(re.search(r'Unknowns: (\d+)', done.stdout).group(1)),
+            'seconds': seconds}
+
+
+def print_study_end():
+    """Date and machine class under a table."""
+    print('\nMeasured %s on 2 cores, x86-64; CPU seconds of the whole run on one core.'
+          % datetime.date.today().isoformat())

@@ -2,11 +2,14 @@
 #include <scree/base/exceptions.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
 
 namespace scree
 {
@@ -46,7 +49,6 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
     : parameters(parameters)
     , communicator(communicator)
     , log(communicator, output_directory + "/log.txt")
-    , timer(communicator, std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
     , directory(output_directory)
     , grid(parameters.grid, communicator)
     , step_control(parameters.time)
@@ -63,54 +65,68 @@ Simulation<dim>::set_up()
   for (const auto &[name, material] : parameters.materials)
     materials[name] = make_material<dim>(material);
 
-  timer.enter_subsection("geometry");
-  bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(grid, parameters.degree),
-                            lattice_margin(parameters, grid));
-  timer.leave_subsection();
+  {
+    const Timings::Scope scope(timings, "geometry");
+    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(grid, parameters.degree),
+                              lattice_margin(parameters, grid));
+  }
 
-  timer.enter_subsection("grid");
-  const double             reach = 2. * parameters.contact.shift * grid.finest_size();
-  std::vector<ContactPair> pairs;
-  std::vector<std::pair<unsigned int, unsigned int>> indices;
-  for (const auto &[a, b] : candidate_pairs(bodies, reach))
-    {
-      const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
-      if (law.law == ContactLaw::none)
-        continue;
-      pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
-      indices.emplace_back(a, b);
-    }
-  grid.refine(bodies, indices);
-  timer.leave_subsection();
+  const auto pairs = find_pairs();
+  {
+    const Timings::Scope                               scope(timings, "grid");
+    std::vector<std::pair<unsigned int, unsigned int>> indices;
+    for (const ContactPair &pair : pairs)
+      indices.emplace_back(pair.a, pair.b);
+    grid.refine(bodies, indices);
+  }
 
-  timer.enter_subsection("fields");
-  level_set_nodes = std::make_unique<LevelSetNodes<dim>>(grid, parameters.degree);
-  fields          = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies,
-                                         BoundaryTerms<dim>::n_multipliers(bodies));
-  timer.leave_subsection();
+  {
+    const Timings::Scope scope(timings, "fields");
+    level_set_nodes = std::make_unique<LevelSetNodes<dim>>(grid, parameters.degree);
+    fields          = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies,
+                                           BoundaryTerms<dim>::n_multipliers(bodies));
+  }
 
-  timer.enter_subsection("quadrature");
-  quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
-  bulk       = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty);
-  boundary_terms
-    = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies);
-  timer.leave_subsection();
+  {
+    const Timings::Scope scope(timings, "quadrature");
+    quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
+    bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty);
+    boundary_terms
+      = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies);
+  }
 
-  timer.enter_subsection("contact search");
-  contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
-                                                 parameters.contact.shift * grid.finest_size());
-  timer.leave_subsection();
+  {
+    const Timings::Scope scope(timings, "contact search");
+    contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
+                                                   parameters.contact.shift * grid.finest_size());
+  }
 
-  timer.enter_subsection("linear assembly");
-  equilibrium
-    = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
-  timer.leave_subsection();
+  {
+    const Timings::Scope scope(timings, "linear assembly");
+    equilibrium
+      = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
+  }
 
   linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim);
   linear_solver->set_near_null_space(equilibrium->rigid_motions());
   results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
                                            parameters.output.probes);
   state   = initial_state(*fields, *contact);
+}
+
+template <int dim>
+std::vector<ContactPair>
+Simulation<dim>::find_pairs() const
+{
+  std::vector<ContactPair> pairs;
+  const double             reach = 2. * parameters.contact.shift * grid.finest_size();
+  for (const auto &[a, b] : candidate_pairs(bodies, reach))
+    {
+      const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
+      if (law.law != ContactLaw::none)
+        pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
+    }
+  return pairs;
 }
 
 template <int dim>
@@ -168,7 +184,21 @@ Simulation<dim>::check()
   record = StepRecord();
   results->write_contact(record, *contact);
   results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
-  log.line("The input is fine; nothing was computed.");
+  log.line("The input is fine; nothing was computed. Set-up written to " + directory);
+  plot();
+}
+
+template <int dim>
+void
+Simulation<dim>::plot() const
+{
+  const std::string script = SCREE_PLOT_SCRIPT;
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0
+      || !std::filesystem::exists(script))
+    return;
+  const std::string command = "'" + script + "' '" + directory + "'";
+  if (std::system(command.c_str()) != 0)
+    std::cout << "No pictures: " << command << " failed" << std::endl;
 }
 
 template <int dim>
@@ -178,50 +208,83 @@ Simulation<dim>::run()
   dealii::Timer wall;
   unsigned int  attempts = 1;
   while (!step_control.finished())
-    {
-      if (solve_step(step_control.next_time()))
-        {
-          record.attempts = attempts;
-          attempts        = 1;
-          step_control.accept(record.newton_iterations);
-          write_results();
-          const double done          = step_control.time() / parameters.time.end_time;
-          const double left          = wall.wall_time() * (1. - done) / done;
-          const auto   contact_state = summarise_contact(*contact, communicator);
-          double       open = 0., stick = 0., slip = 0.;
-          for (const auto &summary : contact_state)
-            {
-              open += summary.open;
-              stick += summary.stick;
-              slip += summary.slip;
-            }
-          log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time)
-                   + ": " + std::to_string(record.newton_iterations) + " iterations, residual "
-                   + short_number(record.residual) + ", open/stick/slip " + short_number(open) + "/"
-                   + short_number(stick) + "/" + short_number(slip) + ", "
-                   + short_duration(wall.wall_time()) + ", left " + short_duration(left) + ", "
-                   + resident_memory());
-          log.progress(done, "left " + short_duration(left));
-        }
-      else
-        {
-          ++attempts;
-          require(step_control.reject(), "Time",
-                  "the load step to time " + short_number(record.time)
-                    + " was not solved, not even with the smallest step",
-                  "see the reasons above; use more steps, a smaller tangential penalty factor, or "
-                  "support the bodies that are not held");
-          log.line("  the step is tried again with "
-                   + short_number(100. * step_control.step_fraction()) + "% of its length");
-        }
-    }
-  std::ostringstream summary;
+    if (solve_step(step_control.next_time()))
+      {
+        record.attempts = attempts;
+        attempts        = 1;
+        step_control.accept(record.newton_iterations);
+        write_results();
+        report_step(wall.wall_time());
+      }
+    else
+      {
+        ++attempts;
+        // A body that slides away does so in every attempt; two are enough to tell.
+        if (attempts > 2)
+          for (const unsigned int body : equilibrium->bodies_not_held())
+            throw_slides_away(body);
+        require(step_control.reject(), "Time",
+                "the load step to time " + short_number(record.time)
+                  + " was not solved, not even with the smallest step",
+                "see the reasons above; use more steps, a smaller tangential penalty factor, or "
+                "support the bodies that are not held");
+        log.line("  the step is tried again with "
+                 + short_number(100. * step_control.step_fraction()) + "% of its length");
+      }
   log.line("Wall time by part:");
-  for (const auto &[name, seconds] : timer.get_summary_data(dealii::TimerOutput::total_wall_time))
+  for (const auto &[name, seconds] : timings.parts())
     log.line("  " + name + ": " + short_number(seconds) + " s");
   log.line("Finished in " + short_duration(wall.wall_time()) + " with "
            + std::to_string(step_control.n_rejected())
            + " rejected step(s). Results: " + directory);
+}
+
+template <int dim>
+void
+Simulation<dim>::report_step(const double wall_time)
+{
+  const double done = step_control.time() / parameters.time.end_time;
+  const double left = wall_time * (1. - done) / done;
+  double       open = 0., stick = 0., slip = 0.;
+  for (const auto &summary : summarise_contact(*contact, communicator))
+    {
+      open += summary.open;
+      stick += summary.stick;
+      slip += summary.slip;
+    }
+  log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time) + ": "
+           + std::to_string(record.newton_iterations) + " iterations, residual "
+           + short_number(record.residual) + ", open/stick/slip " + short_number(open) + "/"
+           + short_number(stick) + "/" + short_number(slip) + ", " + short_duration(wall_time)
+           + ", left " + short_duration(left) + ", " + resident_memory());
+  log.progress(done, "left " + short_duration(left));
+}
+
+template <int dim>
+void
+Simulation<dim>::throw_slides_away(const unsigned int body) const
+{
+  std::string contacts;
+  const auto  summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
+    {
+      const ContactPair &pair = contact->pairs()[p];
+      if (pair.a != body && pair.b != body)
+        continue;
+      contacts += (contacts.empty() ? "" : "; ") + pair.name + " slips over "
+                  + short_number(summaries[p].slip) + ", sticks over "
+                  + short_number(summaries[p].stick) + ", is open over "
+                  + short_number(summaries[p].open)
+                  + (pair.law.law == ContactLaw::coulomb
+                       ? " (mu = " + short_number(pair.law.friction_coefficient) + ")"
+                       : "");
+    }
+  throw UserError(bodies[body].path,
+                  "the body '" + bodies[body].name + "' slides away before time "
+                    + short_number(record.time)
+                    + ": neither its supports nor contact resist all of its rigid motions"
+                    + (contacts.empty() ? "" : "; " + contacts),
+                  "support the body, or raise the friction if it should hold");
 }
 
 template <int dim>
@@ -241,11 +304,29 @@ Simulation<dim>::solve_step(const double time)
       explain_failure(result);
       return false;
     }
+  for (const unsigned int body : equilibrium->bodies_not_held())
+    if (lost_contact(body, u))
+      throw_slides_away(body);
   equilibrium->accept(u, state.contact);
   state.displacement = u;
   state.contact      = contact->current_history();
   state.time         = time;
   return true;
+}
+
+template <int dim>
+bool
+Simulation<dim>::lost_contact(const unsigned int                       body,
+                              const typename Equilibrium<dim>::Vector &u) const
+{
+  const auto summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
+    if ((contact->pairs()[p].a == body || contact->pairs()[p].b == body)
+        && summaries[p].stick + summaries[p].slip > 0.)
+      return false;
+  typename Equilibrium<dim>::Vector motion(u);
+  motion -= state.displacement;
+  return equilibrium->mean_displacement(motion, body).norm() > 1e-3 * grid.finest_size();
 }
 
 template <int dim>
@@ -255,15 +336,16 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
   using Vector = typename Equilibrium<dim>::Vector;
   Newton::Hooks hooks;
   hooks.residual = [&](const Vector &u, Vector &r) {
-    dealii::TimerOutput::Scope scope(timer, "residual");
+    const Timings::Scope scope(timings, "residual");
     equilibrium->residual(u, state.contact, r);
   };
   hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
-    timer.enter_subsection("tangent");
-    const auto &matrix = equilibrium->tangent();
-    timer.leave_subsection();
-    dealii::TimerOutput::Scope scope(timer, "linear solver");
-    const auto solved = linear_solver->solve(matrix, du, r, equilibrium->is_symmetric());
+    const auto *matrix = [&]() {
+      const Timings::Scope scope(timings, "tangent");
+      return &equilibrium->tangent();
+    }();
+    const Timings::Scope scope(timings, "linear solver");
+    const auto           solved = linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
     record.linear_iterations += solved.iterations;
   };
   hooks.reference = [&]() {
@@ -305,11 +387,11 @@ template <int dim>
 void
 Simulation<dim>::write_results()
 {
-  dealii::TimerOutput::Scope scope(timer, "output");
-  const auto                 ghosted = equilibrium->with_ghosts(state.displacement);
-  const auto                &output  = parameters.output;
-  const bool                 is_last = step_control.finished();
-  const auto                 is_due
+  const Timings::Scope scope(timings, "output");
+  const auto           ghosted = equilibrium->with_ghosts(state.displacement);
+  const auto          &output  = parameters.output;
+  const bool           is_last = step_control.finished();
+  const auto           is_due
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
   results->write_history(record, *equilibrium, *contact, *bulk, state.displacement);
   results->write_probes(record, *bulk, ghosted);

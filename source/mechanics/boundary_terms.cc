@@ -169,6 +169,15 @@ BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
 }
 
 template <int dim>
+double
+BoundaryTerms<dim>::squared_arm(const BoundaryRegion<dim> &region,
+                                const BoundaryPoint<dim>  &point) const
+{
+  const dealii::Tensor<1, dim> arm = point.position - region.centre;
+  return arm[0] * arm[0] + arm[1] * arm[1];
+}
+
+template <int dim>
 void
 BoundaryTerms<dim>::mean_row(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                              const unsigned int m, std::vector<double> &row) const
@@ -271,12 +280,11 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
           cell_load           = 0.;
           if (type == ConditionType::mean_support && prescribed)
             {
-              const dealii::Tensor<1, dim> arm = point.position - region.centre;
               for (unsigned int m = 0; m < condition.components.size(); ++m)
                 loads(fields.multiplier(region.first_multiplier + m))
                   += multiplier_scale(region) * point.weight
                      * condition.value(m, point.position, time)
-                     * (condition.components[m] < dim ? 1. : arm * arm);
+                     * (condition.components[m] < dim ? 1. : squared_arm(region, point));
               continue;
             }
           if (dead_loads && (type == ConditionType::traction || type == ConditionType::pressure))
@@ -404,6 +412,36 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
 }
 
 template <int dim>
+void
+BoundaryTerms<dim>::add_multiplier_resultant(const BoundaryRegion<dim> &region, const Vector &u,
+                                             Resultant<dim> &resultant) const
+{
+  double polar_moment = 0.; // int |arm|^2 about the axis through the centre
+  for (const auto &point : region.points)
+    polar_moment += point.weight * squared_arm(region, point);
+  polar_moment = dealii::Utilities::MPI::sum(polar_moment, fields.grid.communicator());
+  for (unsigned int m = 0; m < region.condition->components.size(); ++m)
+    {
+      // The multiplier spreads -scale * (component, or arm turned by 90 degrees) over the region.
+      const DofIndex     index     = fields.multiplier(region.first_multiplier + m);
+      const unsigned int component = region.condition->components[m];
+      const double       density
+        = dealii::Utilities::MPI::sum(fields.owned().is_element(index) ? -u(index) : 0.,
+                                      fields.grid.communicator())
+          * multiplier_scale(region);
+      if (component < dim)
+        {
+          dealii::Tensor<1, dim> force;
+          force[component] = density * region.area;
+          resultant.force += force;
+          resultant.moment += moment_of<dim>(region.centre, force);
+        }
+      else
+        resultant.moment[2] += density * polar_moment;
+    }
+}
+
+template <int dim>
 std::vector<Resultant<dim>>
 BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
 {
@@ -421,17 +459,7 @@ BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
       sum.force  = dealii::Utilities::MPI::sum(sum.force, fields.grid.communicator());
       sum.moment = dealii::Utilities::MPI::sum(sum.moment, fields.grid.communicator());
       if (region.condition->parameters.type == ConditionType::mean_support)
-        for (unsigned int m = 0; m < region.condition->components.size(); ++m)
-          {
-            // The multiplier acts with weight -scale * area on the mean.
-            const DofIndex index = fields.multiplier(region.first_multiplier + m);
-            const double   force
-              = dealii::Utilities::MPI::sum(fields.owned().is_element(index) ? -u(index) : 0.,
-                                            fields.grid.communicator())
-                * multiplier_scale(region) * region.area;
-            if (region.condition->components[m] < dim)
-              sum.force[region.condition->components[m]] += force;
-          }
+        add_multiplier_resultant(region, u, sum);
       result.push_back(sum);
     }
   return result;

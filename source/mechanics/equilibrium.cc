@@ -31,11 +31,12 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
   for (Vector *vector : {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass,
-                         &accepted_u, &accepted_dead_loads, &accepted_reactions})
+                         &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(region.points.size());
+  accepted_displacements = accepted_tractions;
   find_free_bodies();
 }
 
@@ -306,6 +307,28 @@ Equilibrium<dim>::bodies_not_held() const
 }
 
 template <int dim>
+dealii::Tensor<1, dim>
+Equilibrium<dim>::mean_displacement(const Vector &u, const unsigned int body) const
+{
+  dealii::Tensor<1, dim> sum;
+  double                 n = 0.;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      {
+        const DofIndex node = fields.nodes(a)[i];
+        if (fields.cells()[a].body != body || !fields.owned().is_element(node)
+            || fields.hanging_constraints().is_constrained(node))
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[d] += u(node + d);
+        n += 1.;
+      }
+  const MPI_Comm communicator = fields.grid.communicator();
+  return dealii::Utilities::MPI::sum(sum, communicator)
+         / dealii::Utilities::MPI::sum(n, communicator);
+}
+
+template <int dim>
 typename Equilibrium<dim>::Vector
 Equilibrium<dim>::with_ghosts(const Vector &u) const
 {
@@ -342,16 +365,32 @@ Equilibrium<dim>::condition_names() const
 
 template <int dim>
 double
-Equilibrium<dim>::work_of_displacements(const Vector &with_ghost_values)
+Equilibrium<dim>::work_of_multipliers(const Vector &u)
 {
   double work = 0.;
+  for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
+    {
+      const DofIndex index = fields.multiplier(i);
+      if (!fields.owned().is_element(index))
+        continue;
+      // The row says B u = f, its multiplier acts on the body with -B^T lambda.
+      work -= 0.5 * (accepted_u(index) + u(index)) * (loads(index) - accepted_prescribed(index));
+      accepted_prescribed(index) = loads(index);
+    }
+  accepted_prescribed.compress(dealii::VectorOperation::insert);
+  return work;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghost_values)
+{
+  double work = work_of_multipliers(u);
   Vector forces(internal_forces);
   reactions(forces);
   for (const auto &unknown : supports.unknowns())
     {
-      const auto  &condition = *supports.conditions()[unknown.support].second;
-      const double motion    = condition.value(unknown.value, unknown.position, time)
-                            - condition.value(unknown.value, unknown.position, accepted_time);
+      const double motion = u(unknown.index) - accepted_u(unknown.index);
       work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
     }
   accepted_reactions = forces;
@@ -365,10 +404,11 @@ Equilibrium<dim>::work_of_displacements(const Vector &with_ghost_values)
         {
           const auto &point    = region.points[q];
           const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          const auto value    = condition.vector(point.position, time);
           work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
-                  * (condition.vector(point.position, time)
-                     - condition.vector(point.position, accepted_time));
-          accepted_tractions[i][q] = traction;
+                  * (value - accepted_displacements[i][q]);
+          accepted_tractions[i][q]     = traction;
+          accepted_displacements[i][q] = value;
         }
     }
   return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
@@ -385,7 +425,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   motion -= accepted_u;
   accepted_dead_loads += dead_loads;
   energies.external_work
-    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(with_ghost_values);
+    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(u, with_ghost_values);
   accepted_dead_loads = dead_loads;
   accepted_u          = u;
 
@@ -415,7 +455,6 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
     energies.strain += energy;
   energies.ghost_penalty = bulk.ghost_energy(with_ghost_values);
   energies.boundary      = boundary_terms.energy(with_ghost_values, time);
-  accepted_time          = time;
 }
 
 template class Equilibrium<2>;

@@ -123,14 +123,21 @@ check_jumps(const CutBodies<dim> &model)
     return body == 0 ? Tensor<1, dim>(x) : Tensor<1, dim>(3. * x + translation);
   });
   contact.evaluate(u, contact.initial_history());
+  unsigned int n_checked = 0;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       const auto          &point = contact.points()[i];
       const Tensor<1, dim> foot_a(point.position - 0.5 * point.initial_gap * point.normal);
       const Tensor<1, dim> foot_b(point.position + 0.5 * point.initial_gap * point.normal);
+      // Feet outside the box, where it clips the bodies, are moved to its faces.
+      if (!model.grid.box().point_inside(Point<dim>(foot_a))
+          || !model.grid.box().point_inside(Point<dim>(foot_b)))
+        continue;
+      ++n_checked;
       EXPECT_LE((contact.jumps()[i] - (3. * foot_b + translation - foot_a)).norm(), 1e-5);
       EXPECT_NEAR(contact.gap(i), point.initial_gap + point.normal * contact.jumps()[i], 1e-14);
     }
+  EXPECT_GT(n_checked, contact.points().size() / 2);
 }
 
 TEST(ContactPoints, JumpOfLinearFields)
@@ -181,7 +188,7 @@ TEST(ContactPoints, OverlapIsNegativeGap)
   double     smallest = 1.;
   for (const auto &point : contact.points())
     smallest = std::min(smallest, point.initial_gap);
-  EXPECT_NEAR(smallest, -0.03, 1e-4);
+  EXPECT_NEAR(smallest, -0.03, 5e-4);
 }
 
 TEST(ContactPoints, HistoryIsWhatWasEvaluated)

@@ -55,8 +55,8 @@ struct CutBodies
   /** Largest level set on the contact surface, in finest cells. */
   static constexpr double shift = 4.;
 
-  explicit CutBodies(const BodiesInput<dim> &input)
-      : grid(input.grid, MPI_COMM_WORLD)
+  explicit CutBodies(const BodiesInput<dim> &input, const MPI_Comm communicator = MPI_COMM_WORLD)
+      : grid(input.grid, communicator)
   {
     std::map<std::string, std::shared_ptr<const Material<dim>>> materials;
     for (const auto &[name, material] : input.materials)

@@ -48,9 +48,9 @@ struct EquilibriumModel
 {
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  explicit EquilibriumModel(const std::string &text)
+  explicit EquilibriumModel(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD)
       : input(text)
-      , cut(input.bodies)
+      , cut(input.bodies, communicator)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies)

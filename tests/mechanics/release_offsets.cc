@@ -34,6 +34,7 @@ offsets(const unsigned int degree, const std::function<std::string(const double)
         + solver_text(1e-8, "iterative"));
       errors.push_back(Manufactured::solve(model));
       iterations.push_back(model.linear_iterations);
+      if(getenv("DBG")) std::cout << i << ":" << iterations.back() << "/" << model.cut.fields->n_dofs() << "/" << model.equilibrium.free_bodies().size() << " ";
     }
   std::vector<double> sorted(errors);
   std::sort(sorted.begin(), sorted.end());

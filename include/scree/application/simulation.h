@@ -2,11 +2,10 @@
 
 #include <scree/application/parameters.h>
 #include <scree/base/log.h>
+#include <scree/base/timings.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/output/body_output.h>
 #include <scree/output/results.h>
-
-#include <deal.II/base/timer.h>
 
 #include <memory>
 #include <string>
@@ -36,18 +35,25 @@ public:
   void check();
 
 private:
-  void         set_up();
-  void         report_set_up();
-  bool         solve_step(const double time);
-  NewtonResult solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
-  void         explain_failure(const NewtonResult &result);
-  void         write_results();
+  void                     set_up();
+  std::vector<ContactPair> find_pairs() const;
+  void                     report_set_up();
+  bool                     solve_step(const double time);
+  NewtonResult      solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
+  void              report_step(const double wall_time);
+  [[noreturn]] void throw_slides_away(const unsigned int body) const;
+  /** Whether a converged step leaves a body that was moved with nothing that touches it. */
+  bool lost_contact(const unsigned int body, const typename Equilibrium<dim>::Vector &u) const;
+  /** Makes pictures of the output directory by contrib/plot, where it is installed. */
+  void plot() const;
+  void explain_failure(const NewtonResult &result);
+  void write_results();
 
-  Parameters<dim>     parameters;
-  MPI_Comm            communicator;
-  Log                 log;
-  dealii::TimerOutput timer;
-  std::string         directory;
+  Parameters<dim> parameters;
+  MPI_Comm        communicator;
+  Log             log;
+  Timings         timings;
+  std::string     directory;
 
   BackgroundGrid<dim>                 grid;
   std::vector<Body<dim>>              bodies;

@@ -84,6 +84,9 @@ public:
    */
   std::vector<unsigned int> bodies_not_held() const;
 
+  /** Mean over the nodes of a body (collective). */
+  dealii::Tensor<1, dim> mean_displacement(const Vector &u, const unsigned int body) const;
+
   /** u with ghost values and hanging nodes, to evaluate fields. */
   Vector with_ghosts(const Vector &u) const;
 
@@ -115,7 +118,8 @@ private:
   void   find_free_bodies();
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
-  double work_of_displacements(const Vector &ghosted);
+  double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
+  double work_of_multipliers(const Vector &u);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
@@ -138,10 +142,11 @@ private:
   double                  largest_stiffness = 0.; //!< largest diagonal entry of A
   double                  displacement_norm = 0.; //!< |u| of the last residual()
 
-  // The accepted state, for the trapezoidal rule.
+  // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies current_energies;
   Vector   accepted_u, accepted_dead_loads, accepted_reactions;
-  double   accepted_time = 0.;
-  std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions; //!< of Nitsche regions
+  Vector   accepted_prescribed; //!< right-hand sides of the multiplier rows
+  /** Tractions and prescribed displacements at the points of displacement regions. */
+  std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
 };
 } // namespace scree

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+namespace scree
+{
+/** Wall time spent in named parts of a run, on this process. */
+class Timings
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  /** Adds the time of its life to a part. */
+  class Scope
+  {
+  public:
+    Scope(Timings &timings, const std::string &part)
+        : seconds(timings.seconds[part])
+        , start(Clock::now())
+    {
+    }
+    ~Scope()
+    {
+      seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    Scope(const Scope &)            = delete;
+    Scope &operator=(const Scope &) = delete;
+
+  private:
+    double           &seconds;
+    Clock::time_point start;
+  };
+
+  /** Seconds by part. */
+  const std::map<std::string, double> &parts() const
+  {
+    return seconds;
+  }
+
+private:
+  std::map<std::string, double> seconds;
+};
+} // namespace scree
