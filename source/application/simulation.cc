@@ -221,8 +221,9 @@ Simulation<dim>::run()
         ++attempts;
         // A body that slides away does so in every attempt; two are enough to tell.
         if (attempts > 2)
-          for (const unsigned int body : equilibrium->bodies_not_held())
-            throw_slides_away(body);
+          for (const auto &free : equilibrium->free_bodies())
+            if (slides_away(free.body))
+              throw_slides_away(free.body);
         require(step_control.reject(), "Time",
                 "the load step to time " + short_number(record.time)
                   + " was not solved, not even with the smallest step",
@@ -304,9 +305,9 @@ Simulation<dim>::solve_step(const double time)
       explain_failure(result);
       return false;
     }
-  for (const unsigned int body : equilibrium->bodies_not_held())
-    if (lost_contact(body, u))
-      throw_slides_away(body);
+  for (const auto &free : equilibrium->free_bodies())
+    if (lost_contact(free.body))
+      throw_slides_away(free.body);
   equilibrium->accept(u, state.contact);
   state.displacement = u;
   state.contact      = contact->current_history();
@@ -315,18 +316,30 @@ Simulation<dim>::solve_step(const double time)
 }
 
 template <int dim>
-bool
-Simulation<dim>::lost_contact(const unsigned int                       body,
-                              const typename Equilibrium<dim>::Vector &u) const
+std::vector<double>
+Simulation<dim>::contact_force_on_bodies() const
 {
-  const auto summaries = summarise_contact(*contact, communicator);
+  std::vector<double> forces(bodies.size(), 0.);
+  const auto          summaries = summarise_contact(*contact, communicator);
   for (unsigned int p = 0; p < contact->pairs().size(); ++p)
-    if ((contact->pairs()[p].a == body || contact->pairs()[p].b == body)
-        && summaries[p].stick + summaries[p].slip > 0.)
-      return false;
-  typename Equilibrium<dim>::Vector motion(u);
-  motion -= state.displacement;
-  return equilibrium->mean_displacement(motion, body).norm() > 1e-3 * grid.finest_size();
+    for (const unsigned int body : {contact->pairs()[p].a, contact->pairs()[p].b})
+      forces[body] += summaries[p].force.norm();
+  return forces;
+}
+
+template <int dim>
+bool
+Simulation<dim>::lost_contact(const unsigned int body) const
+{
+  return contact_force_on_bodies()[body] < 1e-6 * largest_contact_force[body];
+}
+
+template <int dim>
+bool
+Simulation<dim>::slides_away(const unsigned int body) const
+{
+  const auto not_held = equilibrium->bodies_not_held();
+  return lost_contact(body) || std::find(not_held.begin(), not_held.end(), body) != not_held.end();
 }
 
 template <int dim>
@@ -352,7 +365,14 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
     return std::max(equilibrium->force_scale(),
                     equilibrium->round_off() / parameters.newton.relative_tolerance);
   };
+  largest_contact_force.assign(bodies.size(), 0.);
   hooks.observe = [&](const NewtonIteration &iteration) {
+    if (!equilibrium->free_bodies().empty())
+      {
+        const auto forces = contact_force_on_bodies();
+        for (unsigned int b = 0; b < bodies.size(); ++b)
+          largest_contact_force[b] = std::max(largest_contact_force[b], forces[b]);
+      }
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
                              + short_number(iteration.residual) + " of "
                              + short_number(iteration.tolerance);

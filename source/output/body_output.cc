@@ -210,11 +210,11 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
       dealii::DataOutBase::Patch<dim, dim> patch;
       const ActiveCell                    &cell     = fields.cells()[piece.active_cell];
       const auto                          &geometry = fields.grid.cells()[cell.grid_cell];
-      const bool                           whole    = piece.vertices.size() != dim + 1;
-      if (!whole)
-        patch.reference_cell = dealii::ReferenceCells::get_simplex<dim>();
-      patch.n_subdivisions = 1;
-      patch.patch_index    = output.patches.size();
+      patch.reference_cell                          = piece.vertices.size() == dim + 1
+                                                        ? dealii::ReferenceCells::get_simplex<dim>()
+                                                        : dealii::ReferenceCells::get_hypercube<dim>();
+      patch.n_subdivisions                          = 1;
+      patch.patch_index                             = output.patches.size();
       patch.data.reinit(output.names.size(), piece.vertices.size());
       for (unsigned int v = 0; v < piece.vertices.size(); ++v)
         {

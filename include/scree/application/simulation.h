@@ -39,11 +39,14 @@ private:
   std::vector<ContactPair> find_pairs() const;
   void                     report_set_up();
   bool                     solve_step(const double time);
-  NewtonResult      solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
-  void              report_step(const double wall_time);
-  [[noreturn]] void throw_slides_away(const unsigned int body) const;
-  /** Whether a converged step leaves a body that was moved with nothing that touches it. */
-  bool lost_contact(const unsigned int body, const typename Equilibrium<dim>::Vector &u) const;
+  NewtonResult        solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
+  void                report_step(const double wall_time);
+  [[noreturn]] void   throw_slides_away(const unsigned int body) const;
+  std::vector<double> contact_force_on_bodies() const;
+  /** Whether the contact force on a body vanished in the course of the Newton iterations. */
+  bool lost_contact(const unsigned int body) const;
+  /** Whether neither supports nor contact resist all motions of a body, or it lost its contact. */
+  bool slides_away(const unsigned int body) const;
   /** Makes pictures of the output directory by contrib/plot, where it is installed. */
   void plot() const;
   void explain_failure(const NewtonResult &result);
@@ -69,5 +72,6 @@ private:
   StepControl                         step_control;
   State<dim>                          state;
   StepRecord                          record; //!< of the step being solved
+  std::vector<double> largest_contact_force;  //!< on each body in this step's iterations
 };
 } // namespace scree
