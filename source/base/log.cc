@@ -12,8 +12,9 @@ Log::Log(const MPI_Comm communicator, const std::string &file_name)
 {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
-  is_first    = rank == 0;
-  is_terminal = is_first && isatty(STDOUT_FILENO) == 1;
+  is_first = rank == 0;
+  // mpirun gives its processes a terminal for the standard output only.
+  is_terminal = is_first && isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
   if (is_first && !file_name.empty())
     file.open(file_name);
 }

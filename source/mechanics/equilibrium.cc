@@ -30,8 +30,9 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
-  for (Vector *vector : {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass,
-                         &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
+  for (Vector *vector :
+       {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass, &accepted_u,
+        &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
@@ -200,12 +201,11 @@ template <int dim>
 bool
 Equilibrium<dim>::is_symmetric() const
 {
-  bool slips = false;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    slips |= contact.responses()[i].status == ContactStatus::slip
-             && contact.pairs()[contact.points()[i].pair].law.law == ContactLaw::coulomb;
+  bool is_symmetric = true;
+  for (const auto &response : contact.responses())
+    is_symmetric &= response.is_symmetric;
   return boundary_terms.is_symmetric() && !boundary_terms.has_multipliers()
-         && dealii::Utilities::MPI::max(static_cast<unsigned int>(slips),
+         && dealii::Utilities::MPI::max(static_cast<unsigned int>(!is_symmetric),
                                         fields.grid.communicator())
               == 0;
 }
@@ -404,7 +404,7 @@ Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghos
         {
           const auto &point    = region.points[q];
           const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
-          const auto value    = condition.vector(point.position, time);
+          const auto  value    = condition.vector(point.position, time);
           work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
                   * (value - accepted_displacements[i][q]);
           accepted_tractions[i][q]     = traction;
@@ -437,15 +437,8 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
       stored += 0.5 * point.weight
                 * (response.pressure * response.pressure / contact.eps_n(i)
                    + response.tau.norm_square() / contact.eps_t(i));
-      if (response.status != ContactStatus::slip)
-        continue;
-      const auto trial
-        = old_history.tau[i]
-          - contact.eps_t(i)
-              * (contact.jumps()[i] - old_history.jump[i]
-                 - point.normal * (point.normal * (contact.jumps()[i] - old_history.jump[i])));
-      const double slip = (trial - response.tau).norm() / contact.eps_t(i);
-      dissipated += 0.5 * point.weight * (old_history.tau[i].norm() + response.tau.norm()) * slip;
+      dissipated
+        += 0.5 * point.weight * (old_history.tau[i].norm() + response.tau.norm()) * response.slip;
     }
   const MPI_Comm communicator = fields.grid.communicator();
   energies.contact            = dealii::Utilities::MPI::sum(stored, communicator);

@@ -236,6 +236,9 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
         }
       output.patches.push_back(patch);
     }
+  dealii::DataOutBase::VtkFlags flags;
+  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  output.set_flags(flags);
   const MPI_Comm    communicator = fields.grid.communicator();
   const std::string name         = "bodies_" + dealii::Utilities::int_to_string(number, 4);
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)

@@ -184,8 +184,8 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
       std::vector<double> values = columns(contact, i);
       values.erase(values.begin() + 1, values.begin() + 1 + dim);
       dealii::DataOutBase::Patch<0, dim> patch;
-      patch.vertices[0]    = contact.points()[i].position;
-      patch.patch_index    = i;
+      patch.vertices[0] = contact.points()[i].position;
+      patch.patch_index = i;
       patch.data.reinit(values.size(), 1);
       for (unsigned int c = 0; c < values.size(); ++c)
         patch.data(c, 0) = values[c];

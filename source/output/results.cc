@@ -52,7 +52,7 @@ void
 Results<dim>::open_history(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact)
 {
   std::vector<std::string> names
-    = {"time", "step", "newton_iterations", "attempts", "linear_iterations", "residual"};
+    = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
   for (const ContactPair &pair : contact.pairs())
     {
       add_resultant_names<dim>(pair.name, names);
@@ -77,12 +77,8 @@ Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &eq
 {
   if (is_first && !history)
     open_history(equilibrium, contact);
-  std::vector<double> values = {record.time,
-                                double(record.step),
-                                double(record.newton_iterations),
-                                double(record.attempts),
-                                double(record.linear_iterations),
-                                record.residual};
+  std::vector<double> values = {record.time, double(record.step), double(record.newton_iterations),
+                                double(record.attempts), double(record.linear_iterations)};
   for (const auto &summary : summarise_contact(contact, fields.grid.communicator()))
     {
       add_resultant<dim>(summary.force, summary.moment, values);

@@ -53,7 +53,9 @@ struct ContactResponse
   double                 pressure = 0.; //!< p, positive in compression
   dealii::Tensor<1, dim> tau;           //!< tangential traction on b
   dealii::Tensor<2, dim> tangent;       //!< -d(p n + tau)/d[[u]] [force/area/L]
-  ContactStatus          status = ContactStatus::open;
+  ContactStatus          status       = ContactStatus::open;
+  double                 slip         = 0.;   //!< sliding in this step [L]
+  bool                   is_symmetric = true; //!< the tangent
 
   /** p n + tau, the traction on b. */
   dealii::Tensor<1, dim> traction(const dealii::Tensor<1, dim> &normal) const
@@ -65,15 +67,17 @@ struct ContactResponse
 /**
  * Penalty contact with Coulomb friction as perfect plasticity (method.md section 8; Kikuchi & Oden
  * 1988). With g = g_0 + n.[[u]], p = eps_n <-g>, P = I - n n^T and the trial traction
- * tau_t = tau_n - eps_t P ([[u]] - [[u]]_n): stick if |tau_t| <= mu p, else tau = mu p s with
+ * tau_t = tau_n - eps_t f P ([[u]] - [[u]]_n): stick if |tau_t| <= mu p, else tau = mu p s with
  * s = tau_t / |tau_t|. The tangent is consistent:
  *
  *     stick: eps_n n n^T + eps_t P
  *     slip:  eps_n n n^T + mu eps_n s n^T + (mu p / |tau_t|) eps_t (P - s s^T)
  *
- * Tied: p = -eps_n n.[[u]] of either sign and tau = tau_t. Gaps in [0, closing_gap] carry no
- * traction but the tangent of stick: a body that touches without load is held in the first
- * iteration.
+ * f is the part of the step during which the point is closed, 1 if it was closed at the start and
+ * -g/(g_n - g) if it closes from the gap g_n: motion before the closing causes no friction, so that
+ * tau vanishes with p at the edge of a growing contact (its derivative enters the tangent). Tied: p
+ * = -eps_n n.[[u]] of either sign and tau = tau_t. Gaps in [0, closing_gap] carry no traction but
+ * the tangent of stick: a body that touches without load is held in the first iteration.
  */
 template <int dim>
 ContactResponse<dim> contact_response(const ContactLaw law, const double friction_coefficient,
