@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <sstream>
 
 namespace scree
 {
@@ -80,12 +82,22 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
                   "the body '" + body.name + "' lies outside the background box",
                   "move the body or enlarge Grid/Lower corner, Upper corner");
         }
+      Lattice<dim> level_set = make_lattice(*shape, frame, margin, body.path + "/Shape");
+      for (std::size_t i = 0; i < level_set.values().size(); ++i)
+        if (!std::isfinite(level_set.values()[i]))
+          {
+            std::ostringstream where;
+            where << level_set.node(level_set.index(i));
+            throw UserError(body.path + "/Shape",
+                            "the level set is no finite number at the point " + where.str(),
+                            "check divisions, roots and logarithms of the expression");
+          }
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
       bodies.push_back(
-        Body<dim>{body.name, body.path, make_lattice(*shape, frame, margin, body.path + "/Shape"),
-                  dealii::BoundingBox<dim>({lower, upper}), materials.at(body.material),
+        Body<dim>{body.name, body.path, level_set, dealii::BoundingBox<dim>({lower, upper}),
+                  materials.at(body.material),
                   Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
     }
   return bodies;

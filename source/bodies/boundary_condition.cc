@@ -1,6 +1,9 @@
+#include <scree/base/exceptions.h>
 #include <scree/bodies/boundary_condition.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace scree
 {
@@ -63,6 +66,26 @@ value_text(const BoundaryConditionParameters<dim> &parameters)
     zeros += "; 0";
   return zeros;
 }
+
+/** Records entries that have a value but no meaning for the type. */
+template <int dim>
+void
+check_unused_entries(const BoundaryConditionParameters<dim> &parameters,
+                     const ParameterSection                 &section)
+{
+  const auto  type      = parameters.type;
+  const auto &name      = name_of(condition_type_names, type);
+  const auto  is_unused = [&](const std::string &key, const bool is_used) {
+    if (!is_used && section.is_set(key))
+      section.error(key, "a " + name + " condition does not use it", "remove the line");
+  };
+  is_unused("Components", type != ConditionType::pressure);
+  is_unused("Method", type == ConditionType::displacement);
+  is_unused("Penalty factor", type == ConditionType::displacement);
+  is_unused("Point", type == ConditionType::point_support);
+  is_unused("On", type != ConditionType::point_support);
+  is_unused("Where", type != ConditionType::point_support);
+}
 } // namespace
 
 template <int dim>
@@ -80,9 +103,11 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
   section.entry("Components", components,
                 "The components concerned, a list of x, y, z (mean support: also rotation); empty: "
                 "all displacement components. Not used by pressure.");
-  section.entry("Value", value,
-                "One expression of x, y, z, t per component, separated by ';': displacement [L], "
-                "traction or pressure [force/area], spring stiffness [force/area/L]; empty: zero.");
+  section.entry(
+    "Value", value,
+    "One expression of x, y, z, t per component, separated by ';': displacement [L], "
+    "traction or pressure [force/area], spring stiffness, of t = 0 [force/area/L]; empty: "
+    "zero.");
   section.entry("Method", method, displacement_method_names,
                 "How a displacement is imposed; automatic: exactly on a box face, by Nitsche on "
                 "the cut surface.");
@@ -97,6 +122,15 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
     if (std::find(allowed.begin(), allowed.end(), component) == allowed.end())
       section.error("Components", "'" + component + "' is no component here",
                     "allowed: " + joined(allowed, ", "));
+    else if (std::count(components.begin(), components.end(), component) > 1)
+      {
+        section.error("Components", "'" + component + "' is listed twice", "list each once");
+        break;
+      }
+  check_unused_entries(*this, section);
+  if (penalty_factor == 0. && method != DisplacementMethod::nonsymmetric_nitsche)
+    section.error("Penalty factor", "only nonsymmetric nitsche works without a penalty",
+                  "10 to 100 for the other methods");
   if (value.empty()
       && (type == ConditionType::traction || type == ConditionType::pressure
           || type == ConditionType::springs))
@@ -141,13 +175,30 @@ BoundaryCondition<dim>::BoundaryCondition(const std::string &name, const std::st
 }
 
 template <int dim>
+double
+BoundaryCondition<dim>::value(const unsigned int index, const dealii::Point<dim> &point,
+                              const double time) const
+{
+  const double result = values.value(point, time, index);
+  if (!std::isfinite(result))
+    {
+      std::ostringstream where;
+      where << point << ", t = " << time;
+      throw UserError(path + "/Value",
+                      "'" + values.text() + "' is no finite number at the point " + where.str(),
+                      "check divisions, roots and logarithms, or exclude the point by Where");
+    }
+  return result;
+}
+
+template <int dim>
 dealii::Tensor<1, dim>
 BoundaryCondition<dim>::vector(const dealii::Point<dim> &point, const double time) const
 {
   dealii::Tensor<1, dim> result;
   for (unsigned int i = 0; i < components.size(); ++i)
     if (components[i] < dim)
-      result[components[i]] = values.value(point, time, i);
+      result[components[i]] = value(i, point, time);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <unordered_map>
 
 namespace scree
@@ -82,6 +83,15 @@ GridParameters<dim>::declare(ParameterSection &section)
     }
   if (coarsest_level > finest_level)
     section.error("Coarsest level", "exceeds Finest level", "lower it");
+  // A grid that no memory holds would only show as a run that never starts.
+  double             n_cells = 1.;
+  const unsigned int level = refinement == GridRefinement::uniform ? finest_level : coarsest_level;
+  for (unsigned int d = 0; d < dim; ++d)
+    n_cells *= double(cells[d]) * (1u << level);
+  if (n_cells > 1e9)
+    section.error(refinement == GridRefinement::uniform ? "Finest level" : "Coarsest level",
+                  "the grid would start with " + number(n_cells) + " cells, more than 1e9",
+                  "lower it or Cells, or set Refinement = contact");
   for (unsigned int d = 0; d < dim; ++d)
     if (std::log2(double(cells[d])) + finest_level > 63 / dim - 1)
       section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
@@ -123,8 +133,21 @@ BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                        
     limit = std::make_unique<Expression<dim>>(parameters.cell_size_limit, 1, "Cell size limit");
   const auto is_too_large = [&](const dealii::Point<dim> &centre, const double size) {
     const double half_diagonal = 0.5 * std::sqrt(double(dim)) * size;
-    if (limit && size > limit->value(centre) * (1. + 1e-10))
-      return true;
+    if (limit)
+      {
+        const double largest = limit->value(centre);
+        if (!(largest > 0.))
+          {
+            std::ostringstream where;
+            where << centre;
+            throw UserError("Grid/Cell size limit",
+                            "'" + limit->text() + "' is " + number(largest) + " at the point "
+                              + where.str(),
+                            "it must be positive everywhere");
+          }
+        if (size > largest * (1. + 1e-10))
+          return true;
+      }
     for (const auto &[a, b] : pairs)
       {
         // The level sets are distances: the cell is at least this far from a place of contact.

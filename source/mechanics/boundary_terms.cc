@@ -1,4 +1,3 @@
-#include <scree/base/exceptions.h>
 #include <scree/mechanics/boundary_terms.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,20 +7,6 @@
 
 namespace scree
 {
-template <int dim>
-dealii::Tensor<1, 3>
-moment_of(const dealii::Tensor<1, dim> &position, const dealii::Tensor<1, dim> &force)
-{
-  dealii::Tensor<1, 3> moment;
-  moment[2] = position[0] * force[1] - position[1] * force[0];
-  if (dim == 3)
-    {
-      moment[0] = position[1] * force[dim - 1] - position[dim - 1] * force[1];
-      moment[1] = position[dim - 1] * force[0] - position[0] * force[dim - 1];
-    }
-  return moment;
-}
-
 template <int dim>
 unsigned int
 BoundaryTerms<dim>::n_multipliers(const std::vector<Body<dim>> &bodies)
@@ -41,86 +26,8 @@ BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
                                   const std::vector<Body<dim>> &bodies)
     : fields(fields)
     , bodies(bodies)
+    , boundary_regions(find_boundary_regions(fields, level_set_nodes, quadrature, bodies))
 {
-  unsigned int next_multiplier = 0;
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    for (const auto &condition : bodies[b].conditions)
-      {
-        if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
-          continue;
-        boundary_regions.push_back({b, &condition, {}, 0., {}, next_multiplier});
-        BoundaryRegion<dim> &region = boundary_regions.back();
-        find_points(region, level_set_nodes, quadrature, bodies[b]);
-        measure(region);
-        require(region.area > 0., condition.path,
-                "the region selects nothing of the body '" + bodies[b].name + "'",
-                "check On and Where; does the body reach that face of the box?");
-        if (condition.parameters.type == ConditionType::mean_support)
-          next_multiplier += condition.components.size();
-      }
-}
-
-template <int dim>
-void
-BoundaryTerms<dim>::find_points(BoundaryRegion<dim>      &region,
-                                const LevelSetNodes<dim> &level_set_nodes,
-                                const CutQuadrature<dim> &quadrature, const Body<dim> &body) const
-{
-  CutCellRules<dim>                           rules(fields.basis);
-  std::array<double, max_nodes_per_cell<dim>> values, scaled;
-  const unsigned int                          face = region.condition->box_face;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    {
-      const ActiveCell &cell = fields.cells()[a];
-      if (cell.body != region.body)
-        continue;
-      const auto     &geometry = fields.grid.cells()[cell.grid_cell];
-      CellPoints<dim> points;
-      if (face == BoundaryCondition<dim>::no_face)
-        {
-          for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1];
-               ++q)
-            {
-              points.points.push_back(quadrature.surface.points[q]);
-              points.weights.push_back(quadrature.surface.weights[q]);
-              points.normals.push_back(quadrature.surface.normals[q]);
-            }
-        }
-      else
-        {
-          const auto &iterator = geometry.iterator;
-          if (!iterator->at_boundary(face))
-            continue;
-          level_set_nodes.cell_values(cell.grid_cell, body.level_set, values.data());
-          level_set_nodes.nudged(values.data(), geometry.size, scaled.data());
-          points = rules.face_rule(scaled.data(), geometry.size, face);
-        }
-      for (unsigned int q = 0; q < points.points.size(); ++q)
-        {
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-          if (region.condition->selects(position))
-            region.points.push_back(
-              {a, points.points[q], position, points.normals[q], points.weights[q]});
-        }
-    }
-}
-
-template <int dim>
-void
-BoundaryTerms<dim>::measure(BoundaryRegion<dim> &region) const
-{
-  dealii::Tensor<1, dim> first_moment;
-  double                 area = 0.;
-  for (const auto &point : region.points)
-    {
-      area += point.weight;
-      first_moment += point.weight * point.position;
-    }
-  region.area  = dealii::Utilities::MPI::sum(area, fields.grid.communicator());
-  first_moment = dealii::Utilities::MPI::sum(first_moment, fields.grid.communicator());
-  if (region.area > 0.)
-    region.centre = dealii::Point<dim>(first_moment / region.area);
 }
 
 template <int dim>
@@ -243,6 +150,8 @@ BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
             const double       stiffness = type == ConditionType::springs
                                              ? region.condition->value(k, point.position, 0.)
                                              : beta(region, q);
+            require(stiffness >= 0., region.condition->path + "/Value",
+                    "a spring stiffness is negative", "give values that are not less than zero");
             for (unsigned int a = 0; a < n; ++a)
               for (unsigned int b = 0; b < n; ++b)
                 block(a * dim + c, b * dim + c)
@@ -502,11 +411,6 @@ BoundaryTerms<dim>::energy(const Vector &u, const double time) const
   return dealii::Utilities::MPI::sum(sum, fields.grid.communicator());
 }
 
-#define SCREE_INSTANTIATE(dim)                                            \
-  template class BoundaryTerms<dim>;                                      \
-  template dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &, \
-                                          const dealii::Tensor<1, dim> &);
-
-SCREE_INSTANTIATE(2)
-SCREE_INSTANTIATE(3)
+template class BoundaryTerms<2>;
+template class BoundaryTerms<3>;
 } // namespace scree

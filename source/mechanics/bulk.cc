@@ -1,9 +1,11 @@
+#include <scree/base/exceptions.h>
 #include <scree/mechanics/bulk.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace scree
 {
@@ -152,10 +154,19 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
       for (unsigned int q = 0; q < points.n_points; ++q)
         {
           fields.basis.evaluate_values(points.points[q], shape.data());
+          const dealii::Point<dim> position
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
           const dealii::Tensor<1, dim> b
-            = points.weights[q] * points.weight_scale
-              * force.vector(
-                geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]), time);
+            = points.weights[q] * points.weight_scale * force.vector(position, time);
+          if (!std::isfinite(b.norm_square()))
+            {
+              std::ostringstream where;
+              where << position << ", t = " << time;
+              throw UserError(bodies[cell.body].path + "/Body force",
+                              "'" + force.text() + "' is no finite number at the point "
+                                + where.str(),
+                              "check divisions, roots and logarithms");
+            }
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int d = 0; d < dim; ++d)
               cell_load(i * dim + d) += shape[i] * b[d];

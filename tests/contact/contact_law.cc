@@ -59,6 +59,18 @@ private:
   std::mt19937 engine{42};
 };
 
+/** The trial traction: of the motion after the point has closed. */
+template <int dim>
+Tensor<1, dim>
+trial_traction(const ContactKinematics<dim> &k)
+{
+  const double         gap     = k.initial_gap + k.normal * k.jump;
+  const double         old_gap = k.initial_gap + k.normal * k.old_jump;
+  const double         closed  = old_gap > 0. && gap < 0. ? -gap / (old_gap - gap) : 1.;
+  const Tensor<1, dim> motion  = k.jump - k.old_jump;
+  return k.old_tau - k.eps_t * closed * (motion - k.normal * (k.normal * motion));
+}
+
 template <int dim>
 Tensor<2, dim>
 finite_differences(const ContactLaw law, const double mu, const ContactKinematics<dim> &kinematics,
@@ -92,28 +104,25 @@ compare_tangents()
     {
       Random<dim>                           random;
       std::map<ContactStatus, unsigned int> n_states;
-      for (unsigned int trial = 0; trial < 300; ++trial)
+      for (unsigned int trial = 0; trial < 600; ++trial)
         {
-          const auto           k        = random.kinematics();
-          const double         mu       = random.number(0.1, 2.);
-          const auto           response = contact_response<dim>(law, mu, k);
-          const double         gap      = k.initial_gap + k.normal * k.jump;
-          const Tensor<1, dim> motion   = k.jump - k.old_jump;
-          const double         trial_tau
-            = (k.old_tau - k.eps_t * (motion - k.normal * (k.normal * motion))).norm();
+          const auto   k         = random.kinematics();
+          const double mu        = random.number(0.1, 2.);
+          const auto   response  = contact_response<dim>(law, mu, k);
+          const double gap       = k.initial_gap + k.normal * k.jump;
+          const double trial_tau = trial_traction(k).norm();
           // Not across the kinks of the law, where it has no derivative.
-          if (std::abs(gap) < 1e-3 || std::abs(trial_tau - mu * response.pressure) < 1e-2)
+          if (std::abs(gap) < 0.05 || std::abs(trial_tau - mu * response.pressure) < 1e-2)
             continue;
           ++n_states[response.status];
-          const Tensor<2, dim> difference
-            = response.tangent - finite_differences(law, mu, k, step);
+          const Tensor<2, dim> difference = response.tangent - finite_differences(law, mu, k, step);
           EXPECT_LE(difference.norm(), 1e-6 * std::max(k.eps_n, response.tangent.norm()))
             << name_of(contact_law_names, law) << ", "
             << name_of(contact_status_names, response.status);
         }
-      const bool may_open  = law != ContactLaw::tied;
-      const bool may_stick = law == ContactLaw::coulomb || law == ContactLaw::stick
-                             || law == ContactLaw::tied;
+      const bool may_open = law != ContactLaw::tied;
+      const bool may_stick
+        = law == ContactLaw::coulomb || law == ContactLaw::stick || law == ContactLaw::tied;
       const bool may_slip = law == ContactLaw::coulomb || law == ContactLaw::frictionless;
       EXPECT_EQ(n_states[ContactStatus::open] > 20, may_open) << name_of(contact_law_names, law);
       EXPECT_EQ(n_states[ContactStatus::stick] > 20, may_stick) << name_of(contact_law_names, law);
@@ -143,9 +152,7 @@ check_limits()
       const double         mu       = random.number(0.1, 2.);
       const auto           response = contact_response<dim>(ContactLaw::coulomb, mu, k);
       const double         gap      = k.initial_gap + k.normal * k.jump;
-      const Tensor<1, dim> motion   = k.jump - k.old_jump;
-      const Tensor<1, dim> trial
-        = k.old_tau - k.eps_t * (motion - k.normal * (k.normal * motion));
+      const Tensor<1, dim> trial    = trial_traction(k);
       EXPECT_NEAR(response.pressure, k.eps_n * std::max(0., -gap), 1e-13);
       EXPECT_NEAR(response.tau * k.normal, 0., 1e-13);
       EXPECT_LE(response.tau.norm(), mu * response.pressure + 1e-13);
@@ -184,8 +191,7 @@ TEST(ContactLaw, ReturnMappingKeepsTheLimit3D)
 TEST(ContactLaw, OpeningForgetsTheTraction)
 {
   Random<3> random;
-  for (const ContactLaw law :
-       {ContactLaw::frictionless, ContactLaw::coulomb, ContactLaw::stick})
+  for (const ContactLaw law : {ContactLaw::frictionless, ContactLaw::coulomb, ContactLaw::stick})
     {
       auto k        = random.kinematics();
       k.initial_gap = 0.01;
@@ -202,9 +208,9 @@ TEST(ContactLaw, OpeningForgetsTheTraction)
 TEST(ContactLaw, TouchingPointsHoldInTheTangentOnly)
 {
   Random<2> random;
-  auto      k   = random.kinematics();
-  k.initial_gap = 0.5 * k.closing_gap;
-  k.jump        = Tensor<1, 2>();
+  auto      k           = random.kinematics();
+  k.initial_gap         = 0.5 * k.closing_gap;
+  k.jump                = Tensor<1, 2>();
   const Tensor<2, 2> nn = outer_product(k.normal, k.normal);
   const Tensor<2, 2> stick
     = k.eps_n * nn + k.eps_t * (Tensor<2, 2>(unit_symmetric_tensor<2>()) - nn);
@@ -221,8 +227,8 @@ TEST(ContactLaw, TiedBothWays)
   Random<3> random;
   for (const double motion : {-0.2, 0.2})
     {
-      auto k = random.kinematics();
-      k.jump = motion * k.normal + 0.1 * (k.jump - k.normal * (k.normal * k.jump));
+      auto k              = random.kinematics();
+      k.jump              = motion * k.normal + 0.1 * (k.jump - k.normal * (k.normal * k.jump));
       const auto response = contact_response<3>(ContactLaw::tied, 0., k);
       EXPECT_EQ(response.status, ContactStatus::stick);
       // Whatever the initial gap: tension where the bodies move apart.
@@ -240,7 +246,7 @@ check_work()
   for (const ContactLaw law : {ContactLaw::coulomb, ContactLaw::stick})
     {
       Random<dim>  random;
-      auto         k = random.kinematics();
+      auto         k      = random.kinematics();
       unsigned int n_open = 0, n_slip = 0;
       double       lost = 0.;
       k.initial_gap     = 0.;
@@ -252,7 +258,8 @@ check_work()
           const auto           response = contact_response<dim>(law, 0.4, k);
           const Tensor<1, dim> motion   = k.jump - k.old_jump;
           const double         work     = -response.tau * motion;
-          const double stored = (response.tau.norm_square() - k.old_tau.norm_square()) / 2. / k.eps_t;
+          const double         stored
+            = (response.tau.norm_square() - k.old_tau.norm_square()) / 2. / k.eps_t;
           EXPECT_GE(work - stored, -1e-13);
           lost += work - stored;
           n_open += response.status == ContactStatus::open;
@@ -284,13 +291,14 @@ TEST(ContactLaw, TurnsWithTheFrame)
   for (const ContactLaw law : all_laws)
     for (unsigned int i = 0; i < 20; ++i)
       {
-        const auto k   = random.kinematics();
-        auto       k_r = k;
-        k_r.normal     = rotation * k.normal;
-        k_r.jump       = rotation * k.jump;
-        k_r.old_jump   = rotation * k.old_jump;
-        k_r.old_tau    = rotation * k.old_tau;
-        const auto here = contact_response<3>(law, 0.4, k), there = contact_response<3>(law, 0.4, k_r);
+        const auto k     = random.kinematics();
+        auto       k_r   = k;
+        k_r.normal       = rotation * k.normal;
+        k_r.jump         = rotation * k.jump;
+        k_r.old_jump     = rotation * k.old_jump;
+        k_r.old_tau      = rotation * k.old_tau;
+        const auto here  = contact_response<3>(law, 0.4, k),
+                   there = contact_response<3>(law, 0.4, k_r);
         EXPECT_EQ(here.status, there.status);
         EXPECT_LE((rotation * here.traction(k.normal) - there.traction(k_r.normal)).norm(), 1e-12);
         EXPECT_LE((rotation * here.tangent * transpose(rotation) - there.tangent).norm(), 1e-11);

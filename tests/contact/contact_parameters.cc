@@ -86,8 +86,8 @@ TEST(ContactParameters, WrongLawsAreExplained)
   expect_contains(
     message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block, blok\nend"),
     "no body is called 'blok'");
-  expect_contains(
-    message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block\nend"), "two names");
+  expect_contains(message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block\nend"),
+                  "two names");
 }
 } // namespace
 } // namespace scree

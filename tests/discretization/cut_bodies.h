@@ -66,10 +66,10 @@ struct CutBodies
       = input.grid.refinement == GridRefinement::uniform
           ? h
           : input.grid.cell_size(std::min(input.grid.coarsest_level, input.grid.finest_level));
-    bodies = make_bodies<dim>(input.bodies, materials,
-                              {input.grid.lower, h / input.degree, grid.box()},
-                              std::max((shift + 2.) * h, 2. * coarsest));
-    pairs  = candidate_pairs(bodies, 2. * shift * h);
+    bodies
+      = make_bodies<dim>(input.bodies, materials, {input.grid.lower, h / input.degree, grid.box()},
+                         std::max((shift + 2.) * h, 2. * coarsest));
+    pairs = candidate_pairs(bodies, 2. * shift * h);
     grid.refine(bodies, pairs);
     level_set_nodes            = std::make_unique<LevelSetNodes<dim>>(grid, input.degree);
     unsigned int n_multipliers = 0;
@@ -142,8 +142,7 @@ shape_text(const std::string &type, const std::string &entries)
 inline std::string
 ball_text(const std::string &centre, const double radius)
 {
-  return shape_text("ball",
-                    "set Centre = " + centre + "\nset Radius = " + std::to_string(radius));
+  return shape_text("ball", "set Centre = " + centre + "\nset Radius = " + std::to_string(radius));
 }
 
 inline std::string

@@ -3,11 +3,11 @@
 
 #include <scree/discretization/cut_quadrature.h>
 
-#include "cut_bodies.h"
-
 #include <cmath>
 #include <iostream>
 #include <random>
+
+#include "cut_bodies.h"
 
 namespace scree
 {
@@ -53,18 +53,19 @@ Measure
 orders(const std::string &centre, const double radius, const unsigned int degree,
        const unsigned int first_level, const unsigned int n_levels)
 {
-  const double  volume  = dim == 2 ? M_PI * radius * radius : 4. / 3. * M_PI * std::pow(radius, 3);
-  const double  surface = dim == 2 ? 2. * M_PI * radius : 4. * M_PI * radius * radius;
-  const auto    all     = [](const std::string &x) { return dim == 2 ? x + ", " + x : x + ", " + x + ", " + x; };
-  const std::string     cells = all("2");
-  std::vector<Measure>  errors;
+  const double volume  = dim == 2 ? M_PI * radius * radius : 4. / 3. * M_PI * std::pow(radius, 3);
+  const double surface = dim == 2 ? 2. * M_PI * radius : 4. * M_PI * radius * radius;
+  const auto   all
+    = [](const std::string &x) { return dim == 2 ? x + ", " + x : x + ", " + x + ", " + x; };
+  const std::string    cells = all("2");
+  std::vector<Measure> errors;
   for (unsigned int level = first_level; level < first_level + n_levels; ++level)
     {
-      const CutBodies<dim> model(grid_text(all("-1"), all("1"), cells, level)
-                                 + degree_text(degree)
+      const CutBodies<dim> model(grid_text(all("-1"), all("1"), cells, level) + degree_text(degree)
                                  + bodies_text({{"ball", ball_text(centre, radius)}}));
       const Measure        found = measure(model);
-      errors.push_back({std::abs(found.volume / volume - 1.), std::abs(found.surface / surface - 1.)});
+      errors.push_back(
+        {std::abs(found.volume / volume - 1.), std::abs(found.surface / surface - 1.)});
       std::cout << "  dim " << dim << ", degree " << degree << ", h " << model.grid.finest_size()
                 << ": volume " << errors.back().volume << ", surface " << errors.back().surface
                 << "\n";
@@ -131,11 +132,10 @@ TEST(CutQuadrature, SquareOnGridLines)
       double                 sides = 0., corners = 0.;
       for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
         {
-          const auto &cell = model.grid.cells()[model.fields->cells()[a].grid_cell];
-          const bool  is_corner
-            = std::min(std::abs(cell.lower[0] + 0.5 * h - middle[0]),
-                       std::abs(cell.lower[1] + 0.5 * h - middle[1]))
-              > 0.5 - 0.6 * h;
+          const auto &cell      = model.grid.cells()[model.fields->cells()[a].grid_cell];
+          const bool  is_corner = std::min(std::abs(cell.lower[0] + 0.5 * h - middle[0]),
+                                           std::abs(cell.lower[1] + 0.5 * h - middle[1]))
+                                 > 0.5 - 0.6 * h;
           for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1];
                ++q)
             (is_corner ? corners : sides) += quadrature.surface.weights[q];
@@ -246,9 +246,9 @@ TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions3D)
       unsigned int           n_cut = 0;
       for (unsigned int trial = 0; trial < 60; ++trial)
         {
-          const Tensor<1, 3> normal({number(engine), number(engine), number(engine)});
-          const double       offset = 0.5 * (normal[0] + normal[1] + normal[2] + number(engine));
-          const auto phi = [&](const Point<3> &x) { return normal * x - offset; };
+          const Tensor<1, 3>  normal({number(engine), number(engine), number(engine)});
+          const double        offset = 0.5 * (normal[0] + normal[1] + normal[2] + number(engine));
+          const auto          phi    = [&](const Point<3> &x) { return normal * x - offset; };
           std::vector<double> nodal(basis.n_nodes);
           for (unsigned int i = 0; i < basis.n_nodes; ++i)
             nodal[i] = phi(basis.node(i));
@@ -256,7 +256,7 @@ TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions3D)
             {
               const unsigned int normal_axis = face / 2, u = normal_axis == 0 ? 1 : 0,
                                  v = normal_axis == 2 ? 1 : 2;
-              const auto embed = [&](const Point<2> &x) {
+              const auto embed     = [&](const Point<2> &x) {
                 Point<3> result;
                 result[normal_axis] = face % 2;
                 result[u]           = x[0];

@@ -3,11 +3,11 @@
 
 #include <scree/discretization/fields.h>
 
-#include "cut_bodies.h"
-
 #include <deal.II/base/mpi.h>
 
 #include <random>
+
+#include "cut_bodies.h"
 
 namespace scree
 {
@@ -76,16 +76,16 @@ template <int dim>
 void
 check_numbering(const CutBodies<dim> &model, const unsigned int n_multipliers)
 {
-  const Fields<dim>  &fields = *model.fields;
-  const unsigned int  rank   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const unsigned int  n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const IndexSet     &owned  = fields.owned();
+  const Fields<dim> &fields  = *model.fields;
+  const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const IndexSet    &owned   = fields.owned();
   EXPECT_TRUE(owned.is_contiguous());
   EXPECT_TRUE(owned.is_ascending_and_one_to_one(MPI_COMM_WORLD));
   EXPECT_EQ(Utilities::MPI::sum(owned.n_elements(), MPI_COMM_WORLD), fields.n_dofs());
   // All owned unknowns but the multipliers are components of the nodes of some cell here.
-  const auto   nodes = positions(fields);
-  DofIndex     n     = rank + 1 == n_ranks ? n_multipliers : 0;
+  const auto nodes = positions(fields);
+  DofIndex   n     = rank + 1 == n_ranks ? n_multipliers : 0;
   for (const auto &[node, position] : nodes)
     {
       EXPECT_EQ(owned.is_element(node), owned.is_element(node + dim - 1));
@@ -130,13 +130,13 @@ template <int dim>
 void
 check_stencils(const CutBodies<dim> &model)
 {
-  const Fields<dim>                      &fields = *model.fields;
-  const unsigned int                      rank   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  std::mt19937                            engine(11 + rank);
-  std::uniform_real_distribution<double>  number(-1., 1.);
-  std::vector<unsigned int>               bodies;
-  std::vector<Point<dim>>                 points;
-  unsigned int                            n_elsewhere = 0;
+  const Fields<dim>                     &fields = *model.fields;
+  const unsigned int                     rank   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  std::mt19937                           engine(11 + rank);
+  std::uniform_real_distribution<double> number(-1., 1.);
+  std::vector<unsigned int>              bodies;
+  std::vector<Point<dim>>                points;
+  unsigned int                           n_elsewhere = 0;
   while (points.size() < 300)
     {
       Point<dim> point;
@@ -177,8 +177,8 @@ std::string
 balls_3d()
 {
   return grid_text("-1, -1, -1", "1, 1, 1", "2, 2, 2", 3, graded_text(1)) + degree_text(1)
-         + bodies_text({{"left", ball_text("-0.4, 0, 0", 0.4)},
-                        {"right", ball_text("0.4, 0.01, 0", 0.4)}});
+         + bodies_text(
+           {{"left", ball_text("-0.4, 0, 0", 0.4)}, {"right", ball_text("0.4, 0.01, 0", 0.4)}});
 }
 
 TEST(Fields, StencilsReproduceLinearFields)

@@ -3,9 +3,9 @@
 
 #include <scree/discretization/ghost_penalty.h>
 
-#include "cut_bodies.h"
-
 #include <cmath>
+
+#include "cut_bodies.h"
 
 namespace scree
 {
@@ -22,8 +22,7 @@ cut_ball(const unsigned int degree, const unsigned int finest_level)
                             + std::to_string(std::pow(0.5, finest_level)) + ", 10)\n";
   return grid_text(dim == 2 ? "-1, -1" : "-1, -1, -1", dim == 2 ? "1, 1" : "1, 1, 1", cells,
                    finest_level, graded_text(finest_level - 2, limit))
-         + degree_text(degree)
-         + bodies_text({{"ball", ball_text("0.013, -0.021" + zero, 0.61)}});
+         + degree_text(degree) + bodies_text({{"ball", ball_text("0.013, -0.021" + zero, 0.61)}});
 }
 
 /** The nodal values of a function on both cells of a face. */
@@ -54,23 +53,23 @@ check_polynomials(const unsigned int degree, const unsigned int finest_level)
   unsigned int         n_hanging = 0;
   for (const GhostFace &face : ghost_penalty.faces())
     {
-      const auto  &here = model.grid.cells()[model.fields->cells()[face.cell].grid_cell];
-      const auto  &there = model.grid.cells()[model.fields->cells()[face.neighbor].grid_cell];
+      const auto  &here   = model.grid.cells()[model.fields->cells()[face.cell].grid_cell];
+      const auto  &there  = model.grid.cells()[model.fields->cells()[face.neighbor].grid_cell];
       const auto   matrix = ghost_penalty.matrix(face);
       const double size   = here.size;
       EXPECT_LE(here.size, there.size);
       EXPECT_TRUE(model.fields->cells()[face.cell].is_cut
                   || model.fields->cells()[face.neighbor].is_cut);
       n_hanging += there.size > 1.5 * here.size;
-      const auto polynomial = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
+      const auto     polynomial = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
         const double linear = 0.3 + 1.2 * x[0] - 0.7 * x[1] + 0.4 * x[dim - 1];
         return degree == 1 ? linear : linear + linear * linear + 3. * x[0] * x[1];
       });
-      Vector<double>   product(polynomial.size());
+      Vector<double> product(polynomial.size());
       matrix.vmult(product, polynomial);
       EXPECT_LE(product.linfty_norm(), 1e-11 * std::pow(size, dim - 2));
       // Other functions are not let through.
-      const auto other = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
+      const auto   other = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
         return std::pow(x[face.face / 2], degree + 1);
       });
       const double value = matrix.matrix_norm_square(other);

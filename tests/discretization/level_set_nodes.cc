@@ -3,9 +3,9 @@
 
 #include <scree/discretization/cut_quadrature.h>
 
-#include "cut_bodies.h"
-
 #include <cmath>
+
+#include "cut_bodies.h"
 
 namespace scree
 {
@@ -24,8 +24,7 @@ graded_ball(const unsigned int finest_level, const unsigned int degree)
   const unsigned int coarsest = finest_level > 2 ? finest_level - 2 : 1;
   return grid_text(dim == 2 ? "-1, -1" : "-1, -1, -1", dim == 2 ? "1, 1" : "1, 1, 1", cells,
                    finest_level, graded_text(coarsest, limit))
-         + degree_text(degree)
-         + bodies_text({{"ball", ball_text("0.013, -0.021" + zero, 0.61)}});
+         + degree_text(degree) + bodies_text({{"ball", ball_text("0.013, -0.021" + zero, 0.61)}});
 }
 
 /** The largest jump of phi over a face, relative to the cell size, and whether levels differ. */
@@ -60,11 +59,11 @@ check_continuity(const CutBodies<dim> &model)
             for (unsigned int j = 0; j < (dim == 2 ? 1 : 5); ++j)
               {
                 Point<dim> unit;
-                unit[f / 2] = f % 2;
+                unit[f / 2]             = f % 2;
                 unit[(f / 2 + 1) % dim] = 0.1 + 0.2 * i;
                 if (dim == 3)
                   unit[(f / 2 + 2) % dim] = 0.1 + 0.2 * j;
-                const Point<dim> x = cell.lower + cell.size * Tensor<1, dim>(unit);
+                const Point<dim> x   = cell.lower + cell.size * Tensor<1, dim>(unit);
                 const double     phi = value(here, unit);
                 EXPECT_NEAR(phi, value(there, Point<dim>((x - other.lower) / other.size)), 1e-13);
                 positive |= phi > 0.;

@@ -5,11 +5,11 @@
 #include <scree/grid/background_grid.h>
 #include <scree/parameters/file.h>
 
-#include "../discretization/cut_bodies.h"
-
 #include <deal.II/base/mpi.h>
 
 #include <random>
+
+#include "../discretization/cut_bodies.h"
 
 namespace scree
 {
@@ -34,12 +34,12 @@ two_balls(const unsigned int finest_level, const unsigned int coarsest_level,
           const std::string &more = "")
 {
   const std::string zero = dim == 2 ? "" : ", 0";
-  return BodiesInput<dim>::from_string(
-    grid_text("-1, -1" + std::string(dim == 2 ? "" : ", -1"),
-              "1, 1" + std::string(dim == 2 ? "" : ", 1"), dim == 2 ? "2, 2" : "2, 2, 2",
-              finest_level, graded_text(coarsest_level, more))
-    + bodies_text(
-      {{"left", ball_text("-0.4, 0" + zero, 0.4)}, {"right", ball_text("0.4, 0" + zero, 0.4)}}));
+  return BodiesInput<dim>::from_string(grid_text("-1, -1" + std::string(dim == 2 ? "" : ", -1"),
+                                                 "1, 1" + std::string(dim == 2 ? "" : ", 1"),
+                                                 dim == 2 ? "2, 2" : "2, 2, 2", finest_level,
+                                                 graded_text(coarsest_level, more))
+                                       + bodies_text({{"left", ball_text("-0.4, 0" + zero, 0.4)},
+                                                      {"right", ball_text("0.4, 0" + zero, 0.4)}}));
 }
 
 /** A grid refined for its bodies. */
@@ -65,8 +65,8 @@ template <int dim>
 void
 check_locate(const BackgroundGrid<dim> &grid)
 {
-  const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  std::mt19937       engine(7);
+  const unsigned int                     rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  std::mt19937                           engine(7);
   std::uniform_real_distribution<double> unit(0.001, 0.999);
   for (unsigned int c = 0; c < grid.cells().size(); ++c)
     for (unsigned int trial = 0; trial < 4; ++trial)
@@ -142,10 +142,9 @@ check_grading(const RefinedGrid<dim> &model, const double band, const double gra
     {
       largest = std::max(largest, cell.size);
       // Everywhere in the cell, its size is allowed by the distance of its nearest point.
-      const double distance
-        = std::max(model.bodies[0].level_set.value(centre(cell), 1),
-                   model.bodies[1].level_set.value(centre(cell), 1))
-          - 0.5 * std::sqrt(double(dim)) * cell.size;
+      const double distance = std::max(model.bodies[0].level_set.value(centre(cell), 1),
+                                       model.bodies[1].level_set.value(centre(cell), 1))
+                              - 0.5 * std::sqrt(double(dim)) * cell.size;
       EXPECT_LE(cell.size, (1. + 1e-9) * (h + grading * std::max(0., distance - band * h)));
       for (const unsigned int f : cell.iterator->face_indices())
         if (!cell.iterator->at_boundary(f))
@@ -162,9 +161,8 @@ TEST(BackgroundGrid, GrowsWithTheDistanceFromContact)
 
 TEST(BackgroundGrid, CellSizeLimit)
 {
-  const RefinedGrid<2> model(
-    two_balls<2>(6, 0, "set Cell size limit = if(y > 0.5, 0.0625, 10)\n"));
-  unsigned int n_above = 0;
+  const RefinedGrid<2> model(two_balls<2>(6, 0, "set Cell size limit = if(y > 0.5, 0.0625, 10)\n"));
+  unsigned int         n_above = 0;
   for (const auto &cell : model.grid.cells())
     if (centre(cell)[1] > 0.5)
       {

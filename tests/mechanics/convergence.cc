@@ -1,9 +1,9 @@
 // Cut-cell elasticity with a manufactured field: order k + 1 in L2.
 #include <gtest/gtest.h>
 
-#include "manufactured.h"
-
 #include <iostream>
+
+#include "manufactured.h"
 
 namespace scree
 {
@@ -67,11 +67,12 @@ TEST(Convergence, HangingCutCells)
     double errors[2];
     for (const unsigned int i : {0, 1})
       {
-        const std::string limit = "set Cell size limit = if(x > 0.1, " + std::to_string(0.125 / (1 << i))
-                                  + ", " + std::to_string(0.25 / (1 << i)) + ")\n";
-        EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", 2 + i, graded_text(1 + i, limit))
-                                  + degree_text(degree) + bodies_text({{"body", disc()}})
-                                  + solver_text(1e-11));
+        const std::string limit = "set Cell size limit = if(x > 0.1, "
+                                  + std::to_string(0.125 / (1 << i)) + ", "
+                                  + std::to_string(0.25 / (1 << i)) + ")\n";
+        EquilibriumModel<2> model(
+          grid_text("-1, -1", "1, 1", "4, 4", 2 + i, graded_text(1 + i, limit))
+          + degree_text(degree) + bodies_text({{"body", disc()}}) + solver_text(1e-11));
         EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
         errors[i] = Manufactured::solve(model);
       }
@@ -88,14 +89,15 @@ TEST(ConvergenceMPI, EqualsOneProcess)
   for (const unsigned int degree : {1, 2})
     {
       const std::string limit = "set Cell size limit = if(x > 0.1, 0.125, 0.25)\n";
-      const std::string text = grid_text("-1, -1", "1, 1", "4, 4", 2, graded_text(1, limit))
+      const std::string text  = grid_text("-1, -1", "1, 1", "4, 4", 2, graded_text(1, limit))
                                + degree_text(degree) + bodies_text({{"body", angled_body()}})
                                + solver_text(1e-11);
       EquilibriumModel<2> together(text), alone(text, MPI_COMM_SELF);
       EXPECT_EQ(together.cut.fields->n_dofs(), alone.cut.fields->n_dofs());
       const double error = Manufactured::solve(alone);
       EXPECT_NEAR(Manufactured::solve(together), error, 1e-9 * error);
-      const auto &energies = together.equilibrium.energies(), &others = alone.equilibrium.energies();
+      const auto &energies = together.equilibrium.energies(),
+                 &others   = alone.equilibrium.energies();
       EXPECT_NEAR(energies.strain, others.strain, 1e-9 * others.strain);
       EXPECT_NEAR(energies.external_work, others.external_work, 1e-9 * others.strain);
       EXPECT_NEAR(energies.ghost_penalty, others.ghost_penalty, 1e-9 * others.strain);

@@ -1,9 +1,9 @@
 // Energies and resultants: what the loads did is stored, and forces and moments balance.
 #include <gtest/gtest.h>
 
-#include "equilibrium_model.h"
-
 #include <iostream>
+
+#include "equilibrium_model.h"
 
 namespace scree
 {
@@ -22,7 +22,8 @@ loaded_disc(const unsigned int degree, const std::string &refinement, const std:
                + conditions_text(
                  {{"base", "set On = y-\nset Value = 0.01*t; 0.02*t*x"},
                   {"held", "set On = surface\nset Where = x > 0.5\nset Components = y\n"
-                           "set Method = " + method + "\nset Value = 0.03*t*(1+y)"},
+                           "set Method = "
+                             + method + "\nset Value = 0.03*t*(1+y)"},
                   {"pulled", "set Type = traction\nset On = surface\nset Where = y > 0.4\n"
                              "set Value = 5*t; 7*t*x"},
                   {"pressed", "set Type = pressure\nset On = surface\nset Where = x < -0.5\n"
@@ -53,7 +54,8 @@ check_balance(const std::string &text, const unsigned int n_steps)
 TEST(Energy, LinearProblemsBalance)
 {
   for (const unsigned int degree : {1, 2})
-    for (const std::string &refinement : {std::string(), graded_text(1, "set Cell size limit = if(x > 0.1, 0.125, 1)\n")})
+    for (const std::string &refinement :
+         {std::string(), graded_text(1, "set Cell size limit = if(x > 0.1, 0.125, 1)\n")})
       check_balance(loaded_disc(degree, refinement, "nitsche"), 2);
 }
 
@@ -86,7 +88,7 @@ check_resultants(EquilibriumModel<dim> &model, const std::string &body_force)
   ASSERT_TRUE(result.converged()) << result.message;
   Tensor<1, dim> force;
   Tensor<1, 3>   moment;
-  double         size = 0.;
+  double         size       = 0.;
   const auto     resultants = model.equilibrium.resultants(model.state.displacement);
   ASSERT_EQ(resultants.size(), model.equilibrium.condition_names().size());
   for (unsigned int i = 0; i < resultants.size(); ++i)
@@ -137,10 +139,11 @@ TEST(Resultants, MeanSupportsBalance)
 {
   EquilibriumModel<2> model(
     grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
-    + bodies_text({{"disc", "set Body force = 3*t; -20*t*(1+x)\n" + ball_text("0.01, -0.3", 0.6)
-                              + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0.3\n"
-                                                          "set Components = x, y, rotation\n"
-                                                          "set Value = 0; 0; 0"}})}})
+    + bodies_text(
+      {{"disc", "set Body force = 3*t; -20*t*(1+x)\n" + ball_text("0.01, -0.3", 0.6)
+                  + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0.3\n"
+                                              "set Components = x, y, rotation\n"
+                                              "set Value = 0; 0; 0"}})}})
     + solver_text(1e-12));
   check_resultants(model, "3*t; -20*t*(1+x)");
 }
@@ -149,12 +152,13 @@ TEST(Energy, MeanSupportsThatMoveBalance)
 {
   EquilibriumModel<2> model(
     grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
-    + bodies_text({{"disc", ball_text("0.01, -0.3", 0.6)
-                              + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0\n"
-                                                          "set Components = x, y, rotation\n"
-                                                          "set Value = 0; 0; 0"},
-                                                 {"moved", "set Type = mean support\nset Where = x > 0.3\n"
-                                                           "set Components = x\nset Value = 0.01*t"}})}})
+    + bodies_text(
+      {{"disc", ball_text("0.01, -0.3", 0.6)
+                  + conditions_text({{"mean", "set Type = mean support\nset Where = x < 0\n"
+                                              "set Components = x, y, rotation\n"
+                                              "set Value = 0; 0; 0"},
+                                     {"moved", "set Type = mean support\nset Where = x > 0.3\n"
+                                               "set Components = x\nset Value = 0.01*t"}})}})
     + solver_text(1e-12));
   ASSERT_TRUE(model.step(1.).converged());
   const Energies &energies = model.equilibrium.energies();

@@ -4,14 +4,14 @@
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
-#include "../discretization/cut_bodies.h"
-
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "../discretization/cut_bodies.h"
 
 namespace scree
 {
@@ -108,9 +108,9 @@ struct EquilibriumModel
     double       error = 0., norm = 0.;
     for (unsigned int a = 0; a < cut.fields->n_owned_cells(); ++a)
       {
-        const auto  &active = cut.fields->cells()[a];
-        const auto  &cell   = cut.grid.cells()[active.grid_cell];
-        const auto   add    = [&](const dealii::Point<dim> &unit, const double weight) {
+        const auto &active = cut.fields->cells()[a];
+        const auto &cell   = cut.grid.cells()[active.grid_cell];
+        const auto  add    = [&](const dealii::Point<dim> &unit, const double weight) {
           const auto value
             = exact.vector(cell.lower + cell.size * dealii::Tensor<1, dim>(unit), state.time);
           error += weight * (bulk.sample(a, unit, u).displacement - value).norm_square();
@@ -153,9 +153,8 @@ inline std::string
 solver_text(const double relative_tolerance, const std::string &linear_type = "direct")
 {
   std::ostringstream text;
-  text << "subsection Solver\n subsection Newton\n  set Relative tolerance = "
-       << relative_tolerance << "\n end\n subsection Linear\n  set Type = " << linear_type
-       << "\n end\nend\n";
+  text << "subsection Solver\n subsection Newton\n  set Relative tolerance = " << relative_tolerance
+       << "\n end\n subsection Linear\n  set Type = " << linear_type << "\n end\nend\n";
   return text.str();
 }
 } // namespace scree

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "equilibrium_model.h"
-
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "equilibrium_model.h"
 
 namespace scree
 {

@@ -1,10 +1,10 @@
 // A cut moved over a cell in 100 offsets: neither errors nor linear iterations depend on it.
 #include <gtest/gtest.h>
 
-#include "manufactured.h"
-
 #include <algorithm>
 #include <iostream>
+
+#include "manufactured.h"
 
 namespace scree
 {
@@ -34,7 +34,9 @@ offsets(const unsigned int degree, const std::function<std::string(const double)
         + solver_text(1e-8, "iterative"));
       errors.push_back(Manufactured::solve(model));
       iterations.push_back(model.linear_iterations);
-      if(getenv("DBG")) std::cout << i << ":" << iterations.back() << "/" << model.cut.fields->n_dofs() << "/" << model.equilibrium.free_bodies().size() << " ";
+      if (getenv("DBG"))
+        std::cout << i << ":" << iterations.back() << "/" << model.cut.fields->n_dofs() << "/"
+                  << model.equilibrium.free_bodies().size() << " ";
     }
   std::vector<double> sorted(errors);
   std::sort(sorted.begin(), sorted.end());

@@ -1,10 +1,10 @@
 // The tangent of the equilibrium is the derivative of its residual; Newton converges quadratically.
 #include <gtest/gtest.h>
 
-#include "equilibrium_model.h"
-
 #include <iostream>
 #include <random>
+
+#include "equilibrium_model.h"
 
 namespace scree
 {
@@ -21,10 +21,10 @@ overlapping_bodies(const unsigned int degree, const std::string &refinement,
                    const std::string &law = friction)
 {
   return grid_text("-1, -1", "1, 1", "4, 4", 3, refinement) + degree_text(degree)
-         + bodies_text({{"block", half_space_text("0, 0.013", "0.05, 1")
-                                    + conditions_text({{"base", "set On = y-"}})},
-                        {"disc", ball_text("0, 1.2", 1.2)
-                                   + conditions_text({{"top", "set On = y+"}})}})
+         + bodies_text(
+           {{"block",
+             half_space_text("0, 0.013", "0.05, 1") + conditions_text({{"base", "set On = y-"}})},
+            {"disc", ball_text("0, 1.2", 1.2) + conditions_text({{"top", "set On = y+"}})}})
          + contact_text(law);
 }
 
@@ -203,7 +203,8 @@ TEST(NewtonOnContact, FrictionIn3DEndsQuadratically)
   EquilibriumModel<3> model(
     grid_text("-1, -1, -1", "1, 1, 1", "2, 2, 2", 1) + degree_text(1)
     + bodies_text(
-      {{"block", half_space_text("0, 0, 0", "0, 0, 1") + conditions_text({{"base", "set On = z-"}})},
+      {{"block",
+        half_space_text("0, 0, 0", "0, 0, 1") + conditions_text({{"base", "set On = z-"}})},
        {"cap", half_space_text("0, 0, 0", "0, 0, -1")
                  + conditions_text(
                    {{"top", "set On = z+\nset Value = -0.05*y*t + 0.01*t; 0.08*x*t; -0.02*t"}})}})

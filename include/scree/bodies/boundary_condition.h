@@ -93,11 +93,11 @@ public:
   /** Prescribed vector at a point and time; components not concerned are zero. */
   dealii::Tensor<1, dim> vector(const dealii::Point<dim> &point, const double time) const;
 
-  /** Value of entry `index` of `components`; of a pressure the only one. */
-  double value(const unsigned int index, const dealii::Point<dim> &point, const double time) const
-  {
-    return values.value(point, time, index);
-  }
+  /**
+   * Value of entry `index` of `components`; of a pressure the only one.
+   * @throws UserError if the formula gives no finite number there
+   */
+  double value(const unsigned int index, const dealii::Point<dim> &point, const double time) const;
 
   /** Whether the displacement is imposed on the unknowns of a box face. */
   bool is_strong() const

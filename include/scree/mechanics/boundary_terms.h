@@ -1,47 +1,13 @@
 #pragma once
 
+#include <scree/mechanics/boundary_regions.h>
 #include <scree/mechanics/bulk.h>
+#include <scree/mechanics/resultant.h>
 
 #include <vector>
 
 namespace scree
 {
-/** A quadrature point where a boundary condition acts. */
-template <int dim>
-struct BoundaryPoint
-{
-  unsigned int           active_cell;
-  dealii::Point<dim>     unit_point;
-  dealii::Point<dim>     position;
-  dealii::Tensor<1, dim> normal; //!< out of the body
-  double                 weight; //!< length or area
-};
-
-/** One boundary condition of one body, with the points of its region on this process. */
-template <int dim>
-struct BoundaryRegion
-{
-  unsigned int                    body;
-  const BoundaryCondition<dim>   *condition;
-  std::vector<BoundaryPoint<dim>> points;
-  double                          area;             //!< over all processes
-  dealii::Point<dim>              centre;           //!< of the region, over all processes
-  unsigned int                    first_multiplier; //!< of a mean support
-};
-
-/** Resultant on the body of one condition: force, and moment about the origin. */
-template <int dim>
-struct Resultant
-{
-  dealii::Tensor<1, dim> force;
-  dealii::Tensor<1, 3>   moment; //!< 2D: only the last component
-};
-
-/** Moment of a force at a position about the origin. */
-template <int dim>
-dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &position,
-                               const dealii::Tensor<1, dim> &force);
-
 /**
  * All boundary conditions that are integrals over a region: tractions, pressures, springs,
  * displacements by Nitsche or penalty, mean supports (method.md section 7). The regions are fixed
@@ -99,9 +65,6 @@ public:
   double beta(const BoundaryRegion<dim> &region, const unsigned int q) const;
 
 private:
-  void find_points(BoundaryRegion<dim> &region, const LevelSetNodes<dim> &level_set_nodes,
-                   const CutQuadrature<dim> &quadrature, const Body<dim> &body) const;
-  void measure(BoundaryRegion<dim> &region) const;
   /** sigma(N_a e_i) n for all unknowns of the cell at a point. */
   void stress_vectors(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                       ShapeValues<dim> &shape, std::vector<dealii::Tensor<1, dim>> &vectors) const;

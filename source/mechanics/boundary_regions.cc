@@ -1,0 +1,107 @@
+#include <scree/base/exceptions.h>
+#include <scree/mechanics/boundary_regions.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace scree
+{
+namespace
+{
+template <int dim>
+void
+find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+            const CutQuadrature<dim> &quadrature, const Body<dim> &body,
+            BoundaryRegion<dim> &region)
+{
+  CutCellRules<dim>                           rules(fields.basis);
+  std::array<double, max_nodes_per_cell<dim>> values, scaled;
+  const unsigned int                          face = region.condition->box_face;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell = fields.cells()[a];
+      if (cell.body != region.body)
+        continue;
+      const auto     &geometry = fields.grid.cells()[cell.grid_cell];
+      CellPoints<dim> points;
+      if (face == BoundaryCondition<dim>::no_face)
+        {
+          for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1];
+               ++q)
+            {
+              points.points.push_back(quadrature.surface.points[q]);
+              points.weights.push_back(quadrature.surface.weights[q]);
+              points.normals.push_back(quadrature.surface.normals[q]);
+            }
+        }
+      else
+        {
+          const auto &iterator = geometry.iterator;
+          if (!iterator->at_boundary(face))
+            continue;
+          level_set_nodes.cell_values(cell.grid_cell, body.level_set, values.data());
+          level_set_nodes.nudged(values.data(), geometry.size, scaled.data());
+          points = rules.face_rule(scaled.data(), geometry.size, face);
+        }
+      for (unsigned int q = 0; q < points.points.size(); ++q)
+        {
+          const dealii::Point<dim> position
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
+          if (region.condition->selects(position))
+            region.points.push_back(
+              {a, points.points[q], position, points.normals[q], points.weights[q]});
+        }
+    }
+}
+
+/** Area and centre over all processes. */
+template <int dim>
+void
+measure(const MPI_Comm communicator, BoundaryRegion<dim> &region)
+{
+  dealii::Tensor<1, dim> first_moment;
+  double                 area = 0.;
+  for (const auto &point : region.points)
+    {
+      area += point.weight;
+      first_moment += point.weight * point.position;
+    }
+  region.area  = dealii::Utilities::MPI::sum(area, communicator);
+  first_moment = dealii::Utilities::MPI::sum(first_moment, communicator);
+  if (region.area > 0.)
+    region.centre = dealii::Point<dim>(first_moment / region.area);
+}
+} // namespace
+
+template <int dim>
+std::vector<BoundaryRegion<dim>>
+find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies)
+{
+  std::vector<BoundaryRegion<dim>> regions;
+  unsigned int                     next_multiplier = 0;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (const auto &condition : bodies[b].conditions)
+      {
+        if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
+          continue;
+        regions.push_back({b, &condition, {}, 0., {}, next_multiplier});
+        BoundaryRegion<dim> &region = regions.back();
+        find_points(fields, level_set_nodes, quadrature, bodies[b], region);
+        measure(fields.grid.communicator(), region);
+        require(region.area > 0., condition.path,
+                "the region selects nothing of the body '" + bodies[b].name + "'",
+                "check On and Where; does the body reach that face of the box?");
+        if (condition.parameters.type == ConditionType::mean_support)
+          next_multiplier += condition.components.size();
+      }
+  return regions;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                   \
+  template std::vector<BoundaryRegion<dim>> find_boundary_regions(               \
+    const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &, \
+    const std::vector<Body<dim>> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

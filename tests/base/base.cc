@@ -1,0 +1,103 @@
+// Formulas, names of enums, error messages, numbers in logs.
+#include <gtest/gtest.h>
+
+#include <scree/base/enum_names.h>
+#include <scree/base/exceptions.h>
+#include <scree/base/expression.h>
+#include <scree/base/log.h>
+
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+TEST(Expression, ComponentsOfPositionAndTime)
+{
+  const Expression<2> f("x + 2*y; t*x^2; pi", 3, "here");
+  const Point<2>      point(3., 4.);
+  EXPECT_EQ(f.value(point, 0., 0), 11.);
+  EXPECT_EQ(f.value(point, 2., 1), 18.);
+  EXPECT_EQ(f.value(point, 2., 2), M_PI);
+  const Tensor<1, 2> vector = f.vector(point, 1.);
+  EXPECT_EQ(vector[0], 11.);
+  EXPECT_EQ(vector[1], 9.);
+  EXPECT_EQ(Expression<3>("z", 1, "here").value(Point<3>(1., 2., 7.)), 7.);
+}
+
+TEST(Expression, Selects)
+{
+  const Expression<2> right("x > 1 && y < 2", 1, "Where");
+  EXPECT_TRUE(right.selects(Point<2>(1.5, 1.)));
+  EXPECT_FALSE(right.selects(Point<2>(0.5, 1.)));
+  // Copies evaluate alike.
+  const Expression<2> copy(right);
+  EXPECT_TRUE(copy.selects(Point<2>(1.5, 1.)));
+}
+
+template <int dim>
+std::string
+message(const std::string &formula, const unsigned int n_components)
+{
+  try
+    {
+      Expression<dim>(formula, n_components, "Bodies/disc/Value");
+    }
+  catch (const UserError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+TEST(Expression, WrongFormulasAreExplained)
+{
+  for (const std::string &formula : {"x +", "z", "sin(x", "f(x)", ""})
+    {
+      const std::string told = message<2>(formula, 1);
+      EXPECT_NE(told.find("Bodies/disc/Value"), std::string::npos) << formula << ": " << told;
+      EXPECT_NE(told.find("'" + formula + "'"), std::string::npos) << formula << ": " << told;
+      EXPECT_NE(told.find("remedy"), std::string::npos) << formula << ": " << told;
+    }
+  EXPECT_NE(message<2>("x; y", 1).find("has 2 component(s)"), std::string::npos);
+  EXPECT_NE(message<3>("x; y", 3).find("give 3 expression(s)"), std::string::npos);
+  EXPECT_EQ(message<3>("z", 1), "");
+}
+
+enum class Colour
+{
+  red,
+  green
+};
+
+TEST(EnumNames, BothWays)
+{
+  const EnumNames<Colour> names = {{Colour::red, "red"}, {Colour::green, "green"}};
+  EXPECT_EQ(name_of(names, Colour::green), "green");
+  EXPECT_EQ(value_of(names, "red"), Colour::red);
+  EXPECT_THROW(value_of(names, "blue"), std::logic_error);
+  EXPECT_EQ(joined_names(names), "red|green");
+}
+
+TEST(Exceptions, OneMessage)
+{
+  EXPECT_STREQ(UserError("Grid", "is wrong", "mend it").what(),
+               "Grid: is wrong\n  remedy: mend it");
+  EXPECT_STREQ(UserError("Grid", "is wrong").what(), "Grid: is wrong");
+  EXPECT_NO_THROW(require(true, "Grid", "is wrong"));
+  EXPECT_THROW(require(false, "Grid", "is wrong"), UserError);
+}
+
+TEST(Log, NumbersAndDurations)
+{
+  EXPECT_EQ(short_number(0.0312512345), "0.03125");
+  EXPECT_EQ(short_number(123456.), "1.235e+05");
+  EXPECT_EQ(short_duration(1.234), "1.23 s");
+  EXPECT_EQ(short_duration(59.4), "59 s");
+  EXPECT_EQ(short_duration(200.), "3 min 20 s");
+  EXPECT_EQ(short_duration(7500.), "2 h 5 min");
+}
+} // namespace
+} // namespace scree

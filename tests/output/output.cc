@@ -1,0 +1,180 @@
+// Tables and pieces of the output.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/output/body_output.h>
+#include <scree/output/contact_output.h>
+#include <scree/output/csv_table.h>
+#include <scree/output/probes.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "../mechanics/equilibrium_model.h"
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+/** A directory of its own that goes away. */
+struct Directory
+{
+  Directory()
+  {
+    char name[] = "/tmp/scree_output_XXXXXX";
+    path        = mkdtemp(name);
+  }
+  ~Directory()
+  {
+    std::filesystem::remove_all(path);
+  }
+  std::string path;
+};
+
+std::string
+content(const std::string &file_name)
+{
+  std::ifstream      file(file_name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(CsvTable, RowsAreWrittenAtOnce)
+{
+  const Directory directory;
+  CsvTable        table(directory.path + "/table.csv", {"a", "b"});
+  table.add_row({1., -0.125});
+  EXPECT_EQ(content(directory.path + "/table.csv"), "a,b\n1,-0.125\n");
+  table.add_row({1. / 3., 2e-30});
+  EXPECT_EQ(content(directory.path + "/table.csv"), "a,b\n1,-0.125\n0.333333333333,2e-30\n");
+  EXPECT_THROW(CsvTable("/nowhere/table.csv", {"a"}), UserError);
+}
+
+TEST(VonMises, PlaneStrainAndThreeDimensions)
+{
+  SymmetricTensor<2, 2> plane;
+  plane[0][0] = 3.;
+  plane[0][1] = 1.;
+  plane[1][1] = -1.;
+  // sqrt(((s_x - s_y)^2 + (s_y - s_z)^2 + (s_z - s_x)^2)/2 + 3 tau^2)
+  EXPECT_NEAR(von_mises(plane, 2.), std::sqrt(0.5 * (16. + 9. + 1.) + 3.), 1e-14);
+  SymmetricTensor<2, 3> full;
+  full[0][0] = full[1][1] = full[2][2] = 5.;
+  EXPECT_NEAR(von_mises(full, 0.), 0., 1e-14);
+  full[1][2] = 2.;
+  EXPECT_NEAR(von_mises(full, 0.), std::sqrt(12.), 1e-14);
+}
+
+/** Two blocks squeezed by d with a plane contact at y = 0: uniform pressure. */
+std::string
+squeezed_blocks()
+{
+  return grid_text("-1, -1", "1, 1", "4, 4", 1) + degree_text(1)
+         + bodies_text(
+           {{"lower",
+             half_space_text("0, 0", "0, 1")
+               + conditions_text({{"base", "set On = y-\nset Components = y\nset Value = 0"},
+                                  {"left", "set On = x-\nset Components = x\nset Value = 0"}})},
+            {"upper",
+             half_space_text("0, 0", "0, -1")
+               + conditions_text({{"top", "set On = y+\nset Components = y\n"
+                                          "set Value = -0.01*t"},
+                                  {"left", "set On = x-\nset Components = x\nset Value = 0"}})}})
+         + contact_text("set Law = frictionless") + solver_text(1e-12);
+}
+
+TEST(ContactOutput, SummaryOfUniformPressure)
+{
+  EquilibriumModel<2> model(squeezed_blocks());
+  ASSERT_TRUE(model.step(1.).converged());
+  const auto summary = summarise_contact(model.contact, MPI_COMM_WORLD)[0];
+  // Series of two blocks of height 1, E' = E/(1 - nu^2), and the penalty.
+  const double h = model.cut.grid.finest_size(), eps_n = 10. * 1000. / h;
+  const double pressure = 0.01 / (2. * (1. - 0.09) / 1000. + 1. / eps_n);
+  EXPECT_NEAR(summary.force[1], 2. * pressure, 1e-8 * pressure);
+  EXPECT_NEAR(summary.force[0], 0., 1e-8 * pressure);
+  EXPECT_NEAR(summary.moment[2], 0., 1e-8 * pressure);
+  EXPECT_NEAR(summary.minimum_gap, -pressure / eps_n, 1e-10);
+  EXPECT_NEAR(summary.max_penetration, pressure / eps_n, 1e-10);
+  EXPECT_NEAR(summary.slip, 2., 1e-12);
+  EXPECT_EQ(summary.open, 0.);
+  EXPECT_EQ(summary.stick, 0.);
+}
+
+TEST(ContactOutput, TableHasARowPerPoint)
+{
+  const Directory     directory;
+  EquilibriumModel<2> model(squeezed_blocks());
+  ASSERT_TRUE(model.step(1.).converged());
+  write_contact_csv(model.contact, MPI_COMM_WORLD, directory.path, 3);
+  std::ifstream file(directory.path + "/contact_0003.csv");
+  std::string   line;
+  ASSERT_TRUE(std::getline(file, line));
+  EXPECT_NE(line.find("pressure"), std::string::npos);
+  const auto   n_columns = std::count(line.begin(), line.end(), ',');
+  unsigned int n_rows    = 0;
+  while (std::getline(file, line))
+    {
+      ++n_rows;
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), n_columns) << line;
+    }
+  EXPECT_EQ(n_rows, model.contact.points().size());
+}
+
+TEST(Probes, UniaxialStrain)
+{
+  EquilibriumModel<2> model(squeezed_blocks());
+  ASSERT_TRUE(model.step(1.).converged());
+  ProbeParameters<2> probe;
+  probe.name      = "line";
+  probe.body      = "upper";
+  probe.start     = Point<2>(-0.5, 0.25);
+  probe.end       = Point<2>(0.5, 0.75);
+  probe.n_points  = 5;
+  const auto u    = model.equilibrium.with_ghosts(model.state.displacement);
+  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u);
+  ASSERT_EQ(rows.size(), 5u);
+  const auto names  = sample_columns<2>();
+  const auto column = [&](const std::string &name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  const double pressure
+    = 0.01 / (2. * (1. - 0.09) / 1000. + model.cut.grid.finest_size() / 10. / 1000.);
+  for (unsigned int i = 0; i < 5; ++i)
+    {
+      EXPECT_NEAR(rows[i][column("x")], -0.5 + 0.25 * i, 1e-14);
+      EXPECT_NEAR(rows[i][column("y")], 0.25 + 0.125 * i, 1e-14);
+      EXPECT_NEAR(rows[i][column("stress_yy")], -pressure, 1e-8 * pressure);
+      EXPECT_NEAR(rows[i][column("stress_xx")], 0., 1e-8 * pressure);
+      EXPECT_NEAR(rows[i][column("stress_zz")], -0.3 * pressure, 1e-8 * pressure);
+      const double eps_yy = -pressure * (1. - 0.09) / 1000.;
+      EXPECT_NEAR(rows[i][column("u_y")], -0.01 + eps_yy * (rows[i][1] - 1.), 1e-10);
+    }
+  probe.start = probe.end = Point<2>(0.5, -0.9);
+  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u), UserError);
+}
+
+TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
+{
+  const Directory     directory;
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 3) + degree_text(1)
+    + bodies_text(
+      {{"disc", ball_text("0, 0", 0.7)
+                  + conditions_text({{"held", "set On = surface\nset Value = 0; 0"}})}}));
+  const BodyOutput<2> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
+  const std::string   name = output.write(
+      model.bulk, model.equilibrium.with_ghosts(model.state.displacement), directory.path, 0);
+  EXPECT_EQ(name, "bodies_0000.vtu");
+  const std::string text = content(directory.path + "/" + name);
+  EXPECT_NE(text.find("displacement"), std::string::npos);
+  EXPECT_NE(text.find("von_mises"), std::string::npos);
+}
+} // namespace
+} // namespace scree
