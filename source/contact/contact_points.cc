@@ -60,14 +60,16 @@ ContactPoints<dim>::find_points(const Fields<dim>            &fields,
             n_negative += scaled[i] < 0.;
           if (n_negative == 0 || n_negative == basis.n_nodes)
             continue;
-          const CellPoints<dim> surface = rules.rules(scaled.data(), cell.size).surface;
+          const double          negligible = 1e-6 * std::pow(cell.size, dim - 1);
+          const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
           for (unsigned int q = 0; q < surface.points.size(); ++q)
             {
               basis.evaluate_values(surface.points[q], shape.data());
               double gap = 0.;
               for (unsigned int i = 0; i < basis.n_nodes; ++i)
                 gap += shape[i] * (phi_a[i] + phi_b[i]);
-              if (gap > 2. * shift)
+              // A contour through a vertex leaves points of no length in the cells that touch it.
+              if (gap > 2. * shift || surface.weights[q] < negligible)
                 continue;
               contact_points.push_back(
                 {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),

@@ -164,9 +164,8 @@ ParameterSection::named(const std::string &key, const std::string &documentation
   if (tree->is_documentation)
     {
       // Sections that contain sections of their own kind are described once.
-      for (const ParameterNode *above = node; above != nullptr; above = above->parent)
-        if (above->made_by_key == key)
-          return {};
+      if (node->made_by_key == key)
+        return {};
       names = {"<name>"};
     }
   else

@@ -38,7 +38,7 @@ is_round_off_plateau(const std::vector<double> &residuals, const NewtonIteration
   const std::size_t n = residuals.size();
   return n >= 3 && residuals[n - 1] <= round_off_factor * iteration.tolerance
          && residuals[n - 1] > 0.5 * residuals[n - 2] && residuals[n - 2] > 0.5 * residuals[n - 3]
-         && iteration.increment <= round_off_increment * norm_of_u;
+         && iteration.increment <= iteration.step_length * round_off_increment * norm_of_u;
 }
 } // namespace
 

@@ -79,6 +79,56 @@ TEST(Energy, ConstantPrescribedValuesBalance)
   check_balance(text, 1);
 }
 
+/** Two blocks pressed together and sheared along a path; energies after n steps. */
+Energies
+sheared_blocks(const std::string &law, const std::string &path, const unsigned int n_steps)
+{
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(1)
+    + bodies_text(
+      {{"lower", half_space_text("0, 0.01", "0.1, 1") + conditions_text({{"base", "set On = y-"}})},
+       {"upper", half_space_text("0, 0.01", "-0.1, -1")
+                   + conditions_text({{"top", "set On = y+\nset Value = " + path}})}})
+    + contact_text(law) + solver_text(1e-12));
+  double last_dissipation = 0.;
+  for (unsigned int i = 1; i <= n_steps; ++i)
+    {
+      const auto result = model.step(double(i) / n_steps);
+      EXPECT_TRUE(result.converged()) << result.message;
+      EXPECT_GE(model.equilibrium.energies().dissipation, last_dissipation);
+      last_dissipation = model.equilibrium.energies().dissipation;
+    }
+  return model.equilibrium.energies();
+}
+
+const char *const slippery = "set Law = coulomb\nset Friction coefficient = 0.2";
+
+TEST(Energy, TiedBlocksBalance)
+{
+  const Energies energies = sheared_blocks("set Law = tied", "0.02*t; 0.01*t", 2);
+  EXPECT_LE(std::abs(energies.balance_error()), 1e-10 * energies.external_work);
+  EXPECT_EQ(energies.dissipation, 0.);
+}
+
+TEST(Energy, FrictionBalancesWithSmallSteps)
+{
+  // Pressed first, then sheared: the trapezoidal rule converges.
+  const std::string path = "0.02*max(0, t - 0.5); -0.01*min(t, 0.5)";
+  double            last = 0.;
+  for (const unsigned int n_steps : {4, 8, 16})
+    {
+      const Energies energies = sheared_blocks(slippery, path, n_steps);
+      const double   error    = std::abs(energies.balance_error()) / energies.external_work;
+      std::cout << "  " << n_steps << " steps: dissipation / work "
+                << energies.dissipation / energies.external_work << ", balance error / work "
+                << error << "\n";
+      EXPECT_GT(energies.dissipation, 0.05 * energies.external_work);
+      if (n_steps > 4)
+        EXPECT_LE(error, 0.7 * last);
+      last = error;
+    }
+}
+
 /** Sum of the resultants on the body, with the body force of loaded_disc() at t = 1. */
 template <int dim>
 void

@@ -38,7 +38,10 @@ private:
   void                     set_up();
   std::vector<ContactPair> find_pairs() const;
   void                     report_set_up();
-  bool                     solve_step(const double time);
+  /** Of the old displacements and their extrapolation in time, the one with the smaller residual.
+   */
+  typename Equilibrium<dim>::Vector first_guess(const double time);
+  bool                              solve_step(const double time);
   NewtonResult        solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
   void                report_step(const double wall_time);
   [[noreturn]] void   throw_slides_away(const unsigned int body) const;
@@ -71,7 +74,8 @@ private:
   std::unique_ptr<Results<dim>>       results;
   StepControl                         step_control;
   State<dim>                          state;
-  StepRecord                          record; //!< of the step being solved
-  std::vector<double> largest_contact_force;  //!< on each body in this step's iterations
+  StepRecord                          record;         //!< of the step being solved
+  typename Equilibrium<dim>::Vector   last_increment; //!< of the last step, per time
+  std::vector<double> largest_contact_force;          //!< on each body in this step's iterations
 };
 } // namespace scree

@@ -29,7 +29,7 @@ struct NewtonParameters
 
   unsigned int max_iterations = 25;
 
-  LineSearch line_search = LineSearch::residual;
+  LineSearch line_search = LineSearch::work;
 
   /** Reads the entries of the section and records what is not allowed. */
   void declare(const ParameterSection &section);
@@ -98,7 +98,7 @@ struct NewtonResult
  * supplies the reference, a norm of forces at the present u. The size of du alone never ends the
  * iteration. A residual that round-off keeps above the tolerance is accepted
  * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
- * of the last two iterations, and the last increment was at most 1e-10 |u|_2.
+ * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
