@@ -23,8 +23,7 @@ enum class Law
   elastic,
   plastic
 };
-const EnumNames<Law> law_names
-  = { { Law::elastic, "linear elastic" }, { Law::plastic, "plastic" } };
+const EnumNames<Law> law_names = {{Law::elastic, "linear elastic"}, {Law::plastic, "plastic"}};
 
 struct Material
 {
@@ -42,12 +41,12 @@ struct Everything
   double                          time   = 0.1;
   double                          unset  = NaN;
   std::string                     title  = "a run";
-  std::vector<std::string>        words  = { "x", "y" };
+  std::vector<std::string>        words  = {"x", "y"};
   std::vector<double>             numbers;
-  dealii::Point<2>                centre{ 1., 2. };
+  dealii::Point<2>                centre{1., 2.};
   dealii::Tensor<1, 3>            axis;
-  std::vector<dealii::Point<2> >  vertices = { { 0., 0. }, { 1., 0. } };
-  dealii::Point<3>                origin{ NaN, NaN, NaN };
+  std::vector<dealii::Point<2>>   vertices = {{0., 0.}, {1., 0.}};
+  dealii::Point<3>                origin{NaN, NaN, NaN};
   std::vector<std::string>        names;
   std::map<std::string, Material> materials;
 
@@ -156,13 +155,13 @@ TEST(Parameters, EveryTypeIsReadAndWrittenBackIdentically)
   EXPECT_EQ(first.steps, 20u);
   EXPECT_EQ(first.time, 0.1 + 0.2);
   EXPECT_EQ(first.title, "if(x > 1, y = 2, 3)");
-  EXPECT_EQ(first.words, (std::vector<std::string>{ "one word", "two" }));
-  EXPECT_EQ(first.numbers, (std::vector<double>{ 1e-300, 2.5, 3.1415926535897931 }));
+  EXPECT_EQ(first.words, (std::vector<std::string>{"one word", "two"}));
+  EXPECT_EQ(first.numbers, (std::vector<double>{1e-300, 2.5, 3.1415926535897931}));
   EXPECT_EQ(first.centre, (dealii::Point<2>(-1e22, 0.1)));
   EXPECT_EQ(first.axis[2], 1.);
   ASSERT_EQ(first.vertices.size(), 3u);
   EXPECT_EQ(first.vertices[2], (dealii::Point<2>(1., 1.)));
-  EXPECT_EQ(first.names, (std::vector<std::string>{ "steel", "soft rubber" }));
+  EXPECT_EQ(first.names, (std::vector<std::string>{"steel", "soft rubber"}));
   EXPECT_EQ(first.materials["soft rubber"].law, Law::plastic);
   EXPECT_EQ(first.materials["soft rubber"].young, 210000.);
   EXPECT_TRUE(std::isnan(first.materials["steel"].young));
@@ -184,8 +183,8 @@ TEST(Parameters, EveryTypeIsReadAndWrittenBackIdentically)
 
 TEST(Parameters, DoublesSurviveWritingToTheLastBit)
 {
-  for (const double x : { 1. / 3., 4.9406564584124654e-324, 1.7976931348623157e308, 5e-7,
-                          123456789., -0.1, std::nextafter(1., 2.) })
+  for (const double x : {1. / 3., 4.9406564584124654e-324, 1.7976931348623157e308, 5e-7, 123456789.,
+                         -0.1, std::nextafter(1., 2.)})
     {
       ParameterFile file  = ParameterFile::from_string("");
       double        value = x;
@@ -244,16 +243,16 @@ TEST(Parameters, OverridesReplaceAndCreate)
   EXPECT_EQ(everything.steps, 30u);
   EXPECT_EQ(everything.materials["steel"].young, 7.);
 
-  for (const std::string wrong : { "Steps", "=3", "A//B=3", "A/=3", "", "Steps=3 # three" })
+  for (const std::string wrong : {"Steps", "=3", "A//B=3", "A/=3", "", "Steps=3 # three"})
     EXPECT_THROW(file.override_value(wrong), UserError) << wrong;
 }
 
 TEST(Parameters, WrongOverridesAreToldAsSuch)
 {
-  EXPECT_EQ(complaint("", { "Stebs=3" }), "--set: unknown entry 'Stebs'; did you mean 'Steps'?");
-  EXPECT_EQ(complaint("subsection Times\nend\n", { "Times/End time=0" }),
+  EXPECT_EQ(complaint("", {"Stebs=3"}), "--set: unknown entry 'Stebs'; did you mean 'Steps'?");
+  EXPECT_EQ(complaint("subsection Times\nend\n", {"Times/End time=0"}),
             "--set: Times: \"End time\" = 0 is not allowed: a number > 0");
-  EXPECT_EQ(complaint("", { "Tmes/End time=1" }),
+  EXPECT_EQ(complaint("", {"Tmes/End time=1"}),
             "--set: unknown section 'Tmes'; did you mean 'Times'?");
 }
 
@@ -285,8 +284,7 @@ TEST(Parameters, WrongValuesAreToldWithWhatIsAllowed)
   EXPECT_EQ(in("Times", "End time = 1,5"),
             "input:2: Times: \"End time\" = 1,5 is not allowed: a number > 0\n"
             "  remedy: write one number; a decimal fraction has a point, not a comma");
-  for (const std::string value :
-       { "nan", "inf", "-infinity", "1e999", "0x10", "- 3", "+-3", "--3" })
+  for (const std::string value : {"nan", "inf", "-infinity", "1e999", "0x10", "- 3", "+-3", "--3"})
     EXPECT_NE(in("Times", "Unset = " + value)
                 .find("input:2: Times: \"Unset\" = " + value + " is not allowed: a number"),
               std::string::npos)
@@ -436,22 +434,22 @@ TEST(Parameters, DocumentationVisitsOneNameAndComplainsOfNothing)
   everything.visit(file.root());
   file.root().error("Steps", "are wrong");
   file.check();
-  EXPECT_EQ(everything.names, std::vector<std::string>{ "<name>" });
+  EXPECT_EQ(everything.names, std::vector<std::string>{"<name>"});
 
   std::ostringstream out;
   file.write_markdown(out);
   const std::string text = out.str();
   for (
     const std::string line :
-    { "| Steps | 10 | an integer in [1, 1000] | How many. Not too many. |\n",
-      "## Times\n\nAll in seconds.\n\n| Entry | Default | Allowed | Meaning |\n|---|---|---|---|\n"
-      "| End time | 0.1 | a number > 0 | The last time. |\n",
-      "| Unset | (none) | a number | Not given by default. |\n",
-      "## Materials\n\nWhat bodies consist of.\n\n",
-      "| Names | (none) | names separated by commas, each of a subsection here | The materials. |",
-      "## Materials/\\<name>\n\n",
-      "| Law | linear elastic | linear elastic, plastic | The constitutive law. |\n",
-      "| Young's modulus | (none) | a number > 0 | E \\| stiffness. |\n" })
+    {"| Steps | 10 | an integer in [1, 1000] | How many. Not too many. |\n",
+     "## Times\n\nAll in seconds.\n\n| Entry | Default | Allowed | Meaning |\n|---|---|---|---|\n"
+     "| End time | 0.1 | a number > 0 | The last time. |\n",
+     "| Unset | (none) | a number | Not given by default. |\n",
+     "## Materials\n\nWhat bodies consist of.\n\n",
+     "| Names | (none) | names separated by commas, each of a subsection here | The materials. |",
+     "## Materials/\\<name>\n\n",
+     "| Law | linear elastic | linear elastic, plastic | The constitutive law. |\n",
+     "| Young's modulus | (none) | a number > 0 | E \\| stiffness. |\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\nin\n" << text;
 }
 

@@ -29,7 +29,7 @@ struct NewtonParameters
 
   unsigned int max_iterations = 25;
 
-  LineSearch line_search = LineSearch::work;
+  LineSearch line_search = LineSearch::residual;
 
   /** Reads the entries of the section and records what is not allowed. */
   void declare(const ParameterSection &section);
