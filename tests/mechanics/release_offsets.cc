@@ -81,8 +81,8 @@ TEST(ReleaseOffsets, Disc)
   const auto shape = [](const double offset) {
     return ball_text(to_text(offset) + ", " + to_text(0.3 * offset), 0.8);
   };
-  check(offsets(50, 1, shape, {}, "disc"), 1);
-  check(offsets(50, 2, shape, {}, "disc"), 2);
+  check(offsets(25, 1, shape, {}, "disc"), 1);
+  check(offsets(25, 2, shape, {}, "disc"), 2);
 }
 } // namespace
 } // namespace scree
