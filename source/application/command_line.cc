@@ -173,34 +173,57 @@ execute(const Arguments &arguments, const MPI_Comm communicator)
   else
     run<3>(file, arguments, directory, communicator);
 }
+/** Whether all processes come here within 2 s; those that work on do not. */
+bool
+meet(const MPI_Comm communicator)
+{
+  MPI_Request request;
+  MPI_Ibarrier(communicator, &request);
+  const auto start = std::chrono::steady_clock::now();
+  int        all   = 0;
+  while (!all && std::chrono::steady_clock::now() - start < std::chrono::seconds(2))
+    {
+      MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  return all == 1;
+}
 } // namespace
 
 int
 run_command_line(int argc, char **argv, const MPI_Comm communicator)
 {
-  const bool  is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  MPI_Comm    for_errors = dealii::Utilities::MPI::duplicate_communicator(communicator);
   std::string message;
   try
     {
       execute(parse(argc, argv), communicator);
-      return 0;
     }
   catch (const UserError &error)
     {
       message = error.what();
     }
+  catch (const std::bad_alloc &)
+    {
+      message
+        = "out of memory\n  remedy: choose a coarser grid (Grid/Finest level), or more processes";
+    }
   catch (const std::exception &error)
     {
       message = std::string("internal error, please report it: ") + error.what();
     }
-  // The first process speaks for all that met the same error; an error on another process only must
-  // be told too, and must not leave the others waiting.
-  if (!is_first)
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-  std::cout << std::flush;
-  std::cerr << "scree: " + message + "\n" << std::flush;
-  if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+  const bool all_failed = !message.empty() && meet(for_errors);
+  // The first process speaks for all that met an error together; one that failed alone ends the
+  // others.
+  if (!message.empty()
+      && (!all_failed || dealii::Utilities::MPI::this_mpi_process(communicator) == 0))
+    {
+      std::cout << std::flush;
+      std::cerr << "scree: " + message + "\n" << std::flush;
+    }
+  if (!message.empty() && !all_failed)
     MPI_Abort(communicator, 1);
-  return 1;
+  dealii::Utilities::MPI::free_communicator(for_errors);
+  return message.empty() ? 0 : 1;
 }
 } // namespace scree

@@ -35,6 +35,16 @@ lattice_margin(const Parameters<dim> &parameters, const BackgroundGrid<dim> &gri
   return std::max((parameters.contact.shift + 2.) * grid.finest_size(), 2. * coarsest);
 }
 
+template <int dim>
+std::string
+position(const dealii::Point<dim> &point)
+{
+  std::string text;
+  for (unsigned int d = 0; d < dim; ++d)
+    text += (d == 0 ? "(" : ", ") + short_number(point[d]);
+  return text + ")";
+}
+
 std::string
 resident_memory()
 {
@@ -108,11 +118,14 @@ Simulation<dim>::set_up()
       = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
   }
 
-  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim);
+  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
   linear_solver->set_near_null_space(equilibrium->rigid_motions());
   results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
                                            parameters.output.probes);
   state   = initial_state(*fields, *contact);
+  // Probes outside their bodies are told before anything is computed.
+  for (const auto &probe : parameters.output.probes)
+    results->sample_probe(probe, *bulk, equilibrium->with_ghosts(state.displacement));
 }
 
 template <int dim>
@@ -397,6 +410,7 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
         for (unsigned int b = 0; b < bodies.size(); ++b)
           largest_contact_force[b] = std::max(largest_contact_force[b], forces[b]);
       }
+    count_flips();
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
                              + short_number(iteration.residual) + " of "
                              + short_number(iteration.tolerance);
@@ -407,6 +421,20 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
   };
   equilibrium->set_time(time, u);
   return Newton(parameters.newton, hooks).solve(u);
+}
+
+template <int dim>
+void
+Simulation<dim>::count_flips()
+{
+  const auto &responses = contact->responses();
+  last_status.resize(responses.size(), ContactStatus::open);
+  n_flips.assign(contact->pairs().size(), 0);
+  for (unsigned int i = 0; i < responses.size(); ++i)
+    {
+      n_flips[contact->points()[i].pair] += responses[i].status != last_status[i];
+      last_status[i] = responses[i].status;
+    }
 }
 
 template <int dim>
@@ -424,7 +452,9 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
     log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
              + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
              + short_number(summaries[p].slip) + ", smallest gap "
-             + short_number(summaries[p].minimum_gap));
+             + short_number(summaries[p].minimum_gap) + " at " + position(summaries[p].where)
+             + ", points that changed their state in the last iteration: "
+             + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
 }
 
 template <int dim>

@@ -27,9 +27,9 @@ Expression<dim>::Expression(const std::string &text, const unsigned int n_compon
   catch (const std::exception &error)
     {
       std::string reason = error.what();
-      const auto  begin  = reason.find("Message:");
+      const auto  begin  = reason.find("said:");
       if (begin != std::string::npos)
-        reason = reason.substr(begin + 8, reason.find('\n', begin) - begin - 8);
+        reason = reason.substr(begin + 5, reason.find('\n', begin) - begin - 5);
       else
         reason = "";
       throw UserError(where, "'" + text + "' is not a formula:" + reason,

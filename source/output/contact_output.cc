@@ -81,7 +81,11 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
       const dealii::Tensor<1, dim> force    = point.weight * response.traction(point.normal);
       summary.force += force;
       summary.moment += moment_of<dim>(point.position, force);
-      summary.minimum_gap        = std::min(summary.minimum_gap, contact.gap(i));
+      if (contact.gap(i) < summary.minimum_gap)
+        {
+          summary.minimum_gap = contact.gap(i);
+          summary.where       = point.position;
+        }
       const ContactStatus status = shown_status(response);
       (status == ContactStatus::open    ? summary.open
        : status == ContactStatus::stick ? summary.stick
@@ -91,9 +95,17 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
   using dealii::Utilities::MPI::sum;
   for (auto &summary : result)
     {
-      summary.force       = sum(summary.force, communicator);
-      summary.moment      = sum(summary.moment, communicator);
-      summary.minimum_gap = dealii::Utilities::MPI::min(summary.minimum_gap, communicator);
+      summary.force  = sum(summary.force, communicator);
+      summary.moment = sum(summary.moment, communicator);
+      // The position comes from the process that holds the smallest gap, the lowest one if several
+      // do.
+      const double       smallest = dealii::Utilities::MPI::min(summary.minimum_gap, communicator);
+      const unsigned int rank     = dealii::Utilities::MPI::this_mpi_process(communicator);
+      const unsigned int holder   = dealii::Utilities::MPI::min(
+          summary.minimum_gap == smallest ? rank : dealii::numbers::invalid_unsigned_int,
+        communicator);
+      summary.where       = dealii::Utilities::MPI::broadcast(communicator, summary.where, holder);
+      summary.minimum_gap = smallest;
       if (summary.minimum_gap == none)
         summary.minimum_gap = std::numeric_limits<double>::quiet_NaN();
       summary.max_penetration = std::max(0., -summary.minimum_gap);

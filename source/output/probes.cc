@@ -17,6 +17,8 @@ ProbeParameters<dim>::declare(ParameterSection &section)
   section.entry("End", end, "The last point of a line [L].");
   section.entry("Number of points", n_points, dealii::Patterns::Integer(1, 1000000),
                 "1: a point, a row per step in probes.csv; more: a line, a file per output.");
+  if (n_points > 1 && start.distance(end) == 0.)
+    section.error("End", "a line needs two different ends", "set End, or Number of points = 1");
 }
 
 template <int dim>

@@ -109,7 +109,7 @@ Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, cons
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {
-        const auto rows = sample(probe, body_index(probe.body), fields, bulk, ghosted_u);
+        const auto rows = sample_probe(probe, bulk, ghosted_u);
         if (!is_first)
           continue;
         CsvTable table(directory + "/line_" + probe.name + "_"
@@ -132,6 +132,14 @@ Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &
 }
 
 template <int dim>
+std::vector<std::vector<double>>
+Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Bulk<dim> &bulk,
+                           const Vector &ghosted_u) const
+{
+  return sample(probe, body_index(probe.body), fields, bulk, ghosted_u);
+}
+
+template <int dim>
 void
 Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
@@ -140,7 +148,7 @@ Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, cons
   for (const auto &probe : probes)
     if (probe.n_points == 1)
       {
-        const auto row = sample(probe, body_index(probe.body), fields, bulk, ghosted_u).front();
+        const auto row = sample_probe(probe, bulk, ghosted_u).front();
         values.insert(values.end(), row.begin(), row.end());
         for (const std::string &column : sample_columns<dim>())
           names.push_back(probe.name + "." + column);

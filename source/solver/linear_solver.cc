@@ -42,6 +42,10 @@ const EnumNames<LinearSolverType> type_names = {{LinearSolverType::automatic, "a
                                                 {LinearSolverType::direct, "direct"},
                                                 {LinearSolverType::iterative, "iterative"}};
 
+const EnumNames<MultigridSmoother> smoother_names = {{MultigridSmoother::automatic, "automatic"},
+                                                     {MultigridSmoother::chebyshev, "Chebyshev"},
+                                                     {MultigridSmoother::ilu, "ILU"}};
+
 const EnumNames<DirectPackage> package_names = {{DirectPackage::automatic, "automatic"},
                                                 {DirectPackage::mumps, "MUMPS"},
                                                 {DirectPackage::klu, "KLU"}};
@@ -76,7 +80,7 @@ relative_residual(const LinearSolver::Matrix &A, const LinearSolver::Vector &x,
 void
 initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matrix &A,
                const std::vector<LinearSolver::Vector> &modes, const unsigned int dimension,
-               const LinearSolverParameters &parameters)
+               const LinearSolverParameters &parameters, const bool smooth_by_ilu)
 {
   const Epetra_Map &rows = A.trilinos_matrix().RowMap();
   // ML needs whole nodes on every process.
@@ -86,8 +90,17 @@ initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matri
   Teuchos::ParameterList list;
   ML_Epetra::SetDefaults("SA", list);
   list.set("ML output", 0);
-  list.set("smoother: type", "Chebyshev");
-  list.set("smoother: sweeps", static_cast<int>(parameters.amg_smoother_sweeps));
+  if (smooth_by_ilu)
+    {
+      list.set("smoother: type", "IFPACK");
+      list.set("smoother: ifpack type", "ILU");
+      list.set("smoother: ifpack level-of-fill", 1.);
+    }
+  else
+    {
+      list.set("smoother: type", "Chebyshev");
+      list.set("smoother: sweeps", static_cast<int>(parameters.amg_smoother_sweeps));
+    }
   list.set("coarse: type", "Amesos-KLU");
   list.set("coarse: max size", 2000);
   list.set("aggregation: threshold", parameters.amg_aggregation_threshold);
@@ -147,6 +160,9 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "Iterative: more iterations than this are a failure.");
   const ParameterSection amg
     = section.subsection("Multigrid", "The preconditioner, algebraic multigrid by ML.");
+  amg.entry("Smoother", amg_smoother, smoother_names,
+            "automatic: Chebyshev for degree 1, ILU(1) for degree 2, whose thin cuts Chebyshev "
+            "smooths badly.");
   amg.entry("Smoother sweeps", amg_smoother_sweeps, Patterns::Integer(1),
             "Degree of the Chebyshev smoother.");
   amg.entry("Aggregation threshold", amg_aggregation_threshold, Patterns::Double(0., 1.),
@@ -286,9 +302,12 @@ LinearSolver::Factorisation::solve(Epetra_Vector &x, const Epetra_Vector &b)
   std::copy(left[0], left[0] + rows.NumMyElements(), x.Values());
 }
 
-LinearSolver::LinearSolver(const LinearSolverParameters &parameters, const unsigned int dimension)
+LinearSolver::LinearSolver(const LinearSolverParameters &parameters, const unsigned int dimension,
+                           const unsigned int degree)
     : parameters(parameters)
     , dimension(dimension)
+    , smooth_by_ilu(parameters.amg_smoother == MultigridSmoother::ilu
+                    || (parameters.amg_smoother == MultigridSmoother::automatic && degree > 1))
 {
 }
 
@@ -372,7 +391,7 @@ LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
   try
     {
       TrilinosWrappers::PreconditionAMG amg;
-      initialize_amg(amg, A, near_null_space, dimension, parameters);
+      initialize_amg(amg, A, near_null_space, dimension, parameters, smooth_by_ilu);
       if (cg)
         SolverCG<Vector>(control).solve(A, x, b, amg);
       else

@@ -174,7 +174,7 @@ Newton::solve(Vector &u) const
       const auto told = [&](const char *format) {
         return in_words(format, iteration.number, iteration.residual, iteration.tolerance);
       };
-      if (iteration.residual <= iteration.tolerance)
+      if (std::isfinite(iteration.residual) && iteration.residual <= iteration.tolerance)
         return ended_as(NewtonStatus::converged,
                         told("converged in %u iterations, |r| = %.3e <= %.3e"));
       if (!std::isfinite(iteration.residual)

@@ -52,6 +52,8 @@ private:
   bool slides_away(const unsigned int body) const;
   /** Makes pictures of the output directory by contrib/plot, where it is installed. */
   void plot() const;
+  /** Counts the contact points of each pair that changed their state since the last iteration. */
+  void count_flips();
   void explain_failure(const NewtonResult &result);
   void write_results();
 
@@ -76,6 +78,8 @@ private:
   State<dim>                          state;
   StepRecord                          record;         //!< of the step being solved
   typename Equilibrium<dim>::Vector   last_increment; //!< of the last step, per time
-  std::vector<double> largest_contact_force;          //!< on each body in this step's iterations
+  std::vector<double>        largest_contact_force;   //!< on each body in this step's iterations
+  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;     //!< per pair
 };
 } // namespace scree

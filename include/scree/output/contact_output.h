@@ -13,7 +13,8 @@ struct ContactSummary
 {
   dealii::Tensor<1, dim> force;  //!< on body b
   dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
-  double                 minimum_gap     = 0.; //!< smallest gap, negative: penetration [L]
+  double                 minimum_gap = 0.;     //!< smallest gap, negative: penetration [L]
+  dealii::Point<dim>     where;                //!< of the smallest gap
   double                 max_penetration = 0.; //!< largest penetration [L]
   double                 open = 0., stick = 0., slip = 0.; //!< length or area by status
 };

@@ -47,6 +47,11 @@ public:
   /** Contact CSV and VTU. */
   void write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
 
+  /** Samples of a probe; throws UserError if its body has no cell at a point. */
+  std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
+                                                const Bulk<dim>            &bulk,
+                                                const Vector               &ghosted_u) const;
+
   /** Rows of the probes in probes.csv. */
   void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 

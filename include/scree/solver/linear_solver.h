@@ -45,6 +45,14 @@ enum class KrylovMethod
   gmres
 };
 
+/** The smoother of the multigrid: by the degree of the unknowns, or as told. */
+enum class MultigridSmoother
+{
+  automatic,
+  chebyshev,
+  ilu
+};
+
 /** What a parameter file says about the linear solver. */
 struct LinearSolverParameters
 {
@@ -62,6 +70,8 @@ struct LinearSolverParameters
   double tolerance = 1e-10;
 
   unsigned int max_iterations = 1000;
+
+  MultigridSmoother amg_smoother = MultigridSmoother::automatic;
 
   /** Sweeps of the Chebyshev smoother, before and after each coarse correction. */
   unsigned int amg_smoother_sweeps = 2;
@@ -112,8 +122,12 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-  /** @param dimension number of unknowns per node, 2 or 3: chooses the thresholds and the AMG */
-  LinearSolver(const LinearSolverParameters &parameters, const unsigned int dimension);
+  /**
+   * @param dimension number of unknowns per node, 2 or 3: chooses the thresholds and the AMG
+   * @param degree of the basis: chooses the smoother
+   */
+  LinearSolver(const LinearSolverParameters &parameters, const unsigned int dimension,
+               const unsigned int degree = 1);
 
   ~LinearSolver();
 
@@ -146,6 +160,7 @@ private:
 
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
+  bool                           smooth_by_ilu;
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
 };
