@@ -60,7 +60,7 @@ ContactPoints<dim>::find_points(const Fields<dim>            &fields,
             n_negative += scaled[i] < 0.;
           if (n_negative == 0 || n_negative == basis.n_nodes)
             continue;
-          const double          negligible = 1e-6 * std::pow(cell.size, dim - 1);
+          const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
           const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
           for (unsigned int q = 0; q < surface.points.size(); ++q)
             {

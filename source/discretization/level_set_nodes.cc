@@ -84,8 +84,8 @@ LevelSetNodes<dim>::nudged(const double *values, const double cell_size, double 
   for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
     {
       scaled[i] = values[i] / cell_size;
-      if (std::abs(scaled[i]) < 1e-10)
-        scaled[i] = 1e-10;
+      if (std::abs(scaled[i]) < 1e-12)
+        scaled[i] = 1e-12;
     }
 }
 

@@ -57,7 +57,7 @@ struct EquilibriumModel
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
-      , linear_solver(input.linear, dim)
+      , linear_solver(input.linear, dim, cut.fields->basis.degree)
       , state(initial_state(*cut.fields, contact))
   {
     linear_solver.set_near_null_space(equilibrium.rigid_motions());

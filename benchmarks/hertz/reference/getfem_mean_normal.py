@@ -8,8 +8,9 @@ FRAME     vertical: contact normal (0, -1), each point paired with the one below
           y = x^2/40, whose normal has the slope s = x/20: from X on the circle s = X_1 / (20 - X_2), the partner
           lies at (20 s, 0), the gap is 20 s^2.
 EDGE      of the triangles at the contact [mm]
-PRESSING  friction: pressed in one step with friction (default); frictionless: friction acts from the first
-          sideways step on; a number: pressed with friction in so many steps
+PRESSING  number of steps in which the cylinder is pressed, with friction (default 1), or `frictionless`: pressed in
+          one step, friction acts from the first sideways step on. All motion of a step counts as slip, also that
+          before a point closes: with tilted normals this is wrong by x/20 of the approach and needs small steps.
 
 Needs python3-getfem and gmsh. P2 displacements, P1 multiplier on the circle, augmented Lagrangian (Alart and
 Curnier 1991). Writes x [mm] on the half-way surface, p, the tangential traction on the cylinder in the frame of the
@@ -120,6 +121,7 @@ class Problem:
             'gap, mu, r)).Test_traction', where)
 
     def step(self, u_x, u_y, friction=MU):
+        """Moves the top to (u_x, u_y); the state before is that of the last call."""
         model = self.model
         for i in '12':
             model.set_variable('old' + i, model.variable('u' + i))
@@ -150,12 +152,14 @@ class Problem:
 
 def main():
     frame, edge, path = sys.argv[1], float(sys.argv[2]), sys.argv[3]
-    pressing = sys.argv[4] if len(sys.argv) > 4 else 'friction'
+    pressing = sys.argv[4] if len(sys.argv) > 4 else '1'
     gf.util('trace level', 0)
     problem = Problem(frame, edge)
-    steps = int(pressing) if pressing.isdigit() else 1
-    for k in range(1, steps + 1):
-        problem.step(0., -PRESS * k / steps, 0. if pressing == 'frictionless' else MU)
+    if pressing == 'frictionless':
+        problem.step(0., -PRESS, 0.)
+    else:
+        for k in range(1, int(pressing) + 1):
+            problem.step(0., -PRESS * k / int(pressing))
     problem.write(path.replace('.csv', '_pressed.csv'), frame)
     for k in range(1, STEPS + 1):
         problem.step(SHEAR * k / STEPS, -PRESS)

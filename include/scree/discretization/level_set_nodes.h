@@ -31,7 +31,7 @@ public:
   void cell_values(const unsigned int cell, const Lattice<dim> &lattice, double *values) const;
 
   /**
-   * phi/h for cutting: values with |phi| < 1e-10 h are moved to +1e-10, so that a contour on a grid
+   * phi/h for cutting: values with |phi| < 1e-12 h are moved to +1e-12, so that a contour on a grid
    * line is cut exactly once, from the inside, without slivers.
    */
   void nudged(const double *values, const double cell_size, double *scaled) const;
