@@ -55,10 +55,17 @@ Equilibrium<dim>::set_up_matrices()
   ghosted_dofs.compress();
 
   dealii::DynamicSparsityPattern pattern(fields.n_dofs(), fields.n_dofs(), ghosted_dofs);
-  for (const auto *couplings : {&of_bulk, &of_contact})
-    for (const auto &nodes : *couplings)
-      fields.hanging_constraints().add_entries_local_to_global(
-        unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
+  for (const auto &nodes : of_bulk)
+    fields.hanging_constraints().add_entries_local_to_global(
+      unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
+  // Contact stencils have no hanging nodes, but may have nodes that are not relevant here
+  // otherwise.
+  for (const auto &nodes : of_contact)
+    {
+      const auto unknowns = unknowns_of_nodes<dim>(nodes.data(), nodes.size());
+      for (const DofIndex row : unknowns)
+        pattern.add_entries(row, unknowns.begin(), unknowns.end(), true);
+    }
   for (const auto &unknowns : boundary_terms.multiplier_couplings())
     fields.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
   for (const DofIndex index : fields.owned())

@@ -54,7 +54,7 @@ message(const std::string &formula, const unsigned int n_components)
 
 TEST(Expression, WrongFormulasAreExplained)
 {
-  for (const std::string &formula : {"x +", "z", "sin(x", "f(x)", ""})
+  for (const std::string formula : {"x +", "z", "sin(x", "f(x)", ""})
     {
       const std::string told = message<2>(formula, 1);
       EXPECT_NE(told.find("Bodies/disc/Value"), std::string::npos) << formula << ": " << told;

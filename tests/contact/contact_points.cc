@@ -171,8 +171,9 @@ TEST(ContactPoints, SurfaceOnGridLineIsCountedOnce)
       const CutBodies<2> model(grid_text("-1, -1", "1, 1", "4, 4", 2) + degree_text(degree)
                                + bodies_text({{"lower", half_space_text("0, 0", "0, 1")},
                                               {"upper", half_space_text("0, 0", "0, -1")}}));
-      double             length = 0.;
-      for (const auto &point : contact_points(model).points())
+      double             length  = 0.;
+      const auto         surface = contact_points(model);
+      for (const auto &point : surface.points())
         length += point.weight;
       EXPECT_NEAR(length, 2., 1e-12);
     }

@@ -151,7 +151,9 @@ check_stencils(const CutBodies<dim> &model)
           }
     }
   if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    EXPECT_GT(n_elsewhere, 50u);
+    {
+      EXPECT_GT(n_elsewhere, 50u);
+    }
   const auto stencils = fields.stencils(bodies, points);
 
   std::map<DofIndex, Point<dim>> everywhere;
@@ -164,7 +166,10 @@ check_stencils(const CutBodies<dim> &model)
       for (const auto &[node, weight] : stencils[i])
         {
           ASSERT_TRUE(everywhere.count(node));
-          EXPECT_FALSE(fields.hanging_constraints().is_constrained(node));
+          if (fields.relevant().is_element(node))
+            {
+              EXPECT_FALSE(fields.hanging_constraints().is_constrained(node));
+            }
           sum += weight;
           moment += weight * everywhere[node];
         }

@@ -148,7 +148,9 @@ check_grading(const RefinedGrid<dim> &model, const double band, const double gra
       EXPECT_LE(cell.size, (1. + 1e-9) * (h + grading * std::max(0., distance - band * h)));
       for (const unsigned int f : cell.iterator->face_indices())
         if (!cell.iterator->at_boundary(f))
-          EXPECT_LE(std::abs(cell.iterator->level() - cell.iterator->neighbor(f)->level()), 1);
+          {
+            EXPECT_LE(std::abs(cell.iterator->level() - cell.iterator->neighbor(f)->level()), 1);
+          }
     }
   EXPECT_GE(largest, 4. * h);
 }
