@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from .bodies import body_colour, draw_3d, outline
-from .results import BodyMesh
+from .results import BodyMesh, read_table
 from .style import COLOURS, figure_for, save, short
 
 
@@ -59,8 +59,10 @@ def draw_cells(axes, mesh, points):
 
 
 def draw_conditions(axes, run, mesh, points, edges):
-    """Marks the fitted boundaries with conditions; conditions on cut surfaces are told in the legend only."""
+    """Marks where conditions act: fitted boundaries, and the points of regions.csv on cut surfaces."""
     handles, number = [], 0
+    file = run.directory / "regions.csv"
+    regions = read_table(file) if file.exists() else None
     corners = [np.array([float(v) for v in run.parameters.get(f"Grid/{corner} corner", "nan,nan").split(",")])
                for corner in ("Lower", "Upper")]
     middle = points[edges].mean(axis=1)
@@ -84,6 +86,10 @@ def draw_conditions(axes, run, mesh, points, edges):
                 plane = corners[face[1] == "+"][axis]
                 own = (mesh.body[edges[:, 0]] == index) & (np.abs(middle[:, axis] - plane) < 1e-6 * mesh.size)
                 axes.add_collection(LineCollection(points[edges[own]], colors=colour, linewidths=5, alpha=0.6))
+            elif regions:
+                own = [(b, c) == (body, name) for b, c in zip(regions["body"], regions["condition"])]
+                axes.plot(np.asarray(regions["x"])[own], np.asarray(regions["y"])[own], "o", markersize=4,
+                          color=colour, alpha=0.6, zorder=3)
             number += 1
     return handles
 

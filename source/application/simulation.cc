@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -198,6 +199,7 @@ Simulation<dim>::check()
   record = StepRecord();
   results->write_contact(record, *contact);
   results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
+  write_regions_csv(boundary_terms->regions(), bodies, communicator, directory);
   dealii::GridOut().write_mesh_per_processor_as_vtu(grid.triangulation(), directory + "/grid");
   log.line("The input is fine; nothing was computed. Set-up written to " + directory);
   plot();
