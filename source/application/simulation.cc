@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/contact/contact_reach.h>
 #include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -345,6 +346,14 @@ Simulation<dim>::solve_step(const double time)
     if (lost_contact(free.body))
       throw_slides_away(free.body);
   equilibrium->accept(u, state.contact);
+  require_contact_within_reach(*contact, parameters.contact.shift * grid.finest_size(),
+                               communicator);
+  for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
+                                                  equilibrium->largest_displacements(u)))
+    if (warned_pairs.insert(pair).second)
+      log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
+               + " may have met, but were too far apart at the start for contact between them; "
+                 "raise Contact/Shift if they should touch");
   last_increment = u;
   last_increment -= state.displacement;
   last_increment *= 1. / (time - state.time);

@@ -95,6 +95,9 @@ GridParameters<dim>::declare(ParameterSection &section)
   for (unsigned int d = 0; d < dim; ++d)
     if (std::log2(double(cells[d])) + finest_level > 63 / dim - 1)
       section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
+  if (!cell_size_limit.empty() && refinement == GridRefinement::uniform)
+    section.error("Cell size limit", "a uniform grid has no use for it",
+                  "set Refinement = contact, or remove it");
   if (!cell_size_limit.empty())
     try
       {

@@ -314,25 +314,23 @@ Equilibrium<dim>::bodies_not_held() const
 }
 
 template <int dim>
-dealii::Tensor<1, dim>
-Equilibrium<dim>::mean_displacement(const Vector &u, const unsigned int body) const
+std::vector<double>
+Equilibrium<dim>::largest_displacements(const Vector &u) const
 {
-  dealii::Tensor<1, dim> sum;
-  double                 n = 0.;
+  std::vector<double> result(bodies.size(), 0.);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
       {
-        const DofIndex node = fields.nodes(a)[i];
-        if (fields.cells()[a].body != body || !fields.owned().is_element(node)
-            || fields.hanging_constraints().is_constrained(node))
-          continue;
-        for (unsigned int d = 0; d < dim; ++d)
-          sum[d] += u(node + d);
-        n += 1.;
+        const DofIndex         node = fields.nodes(a)[i];
+        dealii::Tensor<1, dim> displacement;
+        if (fields.owned().is_element(node) && !fields.hanging_constraints().is_constrained(node))
+          for (unsigned int d = 0; d < dim; ++d)
+            displacement[d] = u(node + d);
+        double &largest = result[fields.cells()[a].body];
+        largest         = std::max(largest, displacement.norm());
       }
-  const MPI_Comm communicator = fields.grid.communicator();
-  return dealii::Utilities::MPI::sum(sum, communicator)
-         / dealii::Utilities::MPI::sum(n, communicator);
+  dealii::Utilities::MPI::max(result, fields.grid.communicator(), result);
+  return result;
 }
 
 template <int dim>

@@ -218,8 +218,9 @@ TEST(ContactPoints, CellsAroundContactHaveOneLevel)
     grid_text("-1, -1", "1, 1", "2, 2", 6, graded_text(1)) + degree_text(1)
     + bodies_text({{"left", ball_text("-0.4, 0.01", 0.4)}, {"right", ball_text("0.4, 0", 0.4)}}));
   EXPECT_TRUE(model.grid.triangulation().has_hanging_nodes());
-  const double h = model.grid.finest_size();
-  for (const auto &point : contact_points(model).points())
+  const double h       = model.grid.finest_size();
+  const auto   contact = contact_points(model);
+  for (const auto &point : contact.points())
     {
       if (point.initial_gap > 2. * h)
         continue;

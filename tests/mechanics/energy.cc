@@ -143,7 +143,9 @@ TEST(Energy, GrowingContactBalancesWithSmallSteps)
                 << error << "\n";
       EXPECT_GT(energies.dissipation, 0.);
       if (n_steps > 2)
-        EXPECT_LE(error, 0.5 * last);
+        {
+          EXPECT_LE(error, 0.5 * last);
+        }
       last = error;
     }
   EXPECT_LE(last, 1e-2);

@@ -8,6 +8,7 @@
 #include <scree/output/results.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,7 +79,8 @@ private:
   State<dim>                          state;
   StepRecord                          record;         //!< of the step being solved
   typename Equilibrium<dim>::Vector   last_increment; //!< of the last step, per time
-  std::vector<double>        largest_contact_force;   //!< on each body in this step's iterations
+  std::vector<double> largest_contact_force;          //!< on each body in this step's iterations
+  std::set<std::pair<unsigned int, unsigned int>> warned_pairs; //!< told once
   std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
   std::vector<unsigned int>  n_flips;     //!< per pair
 };

@@ -84,8 +84,8 @@ public:
    */
   std::vector<unsigned int> bodies_not_held() const;
 
-  /** Mean over the nodes of a body (collective). */
-  dealii::Tensor<1, dim> mean_displacement(const Vector &u, const unsigned int body) const;
+  /** Largest |u| at the nodes of each body (collective). */
+  std::vector<double> largest_displacements(const Vector &u) const;
 
   /** u with ghost values and hanging nodes, to evaluate fields. */
   Vector with_ghosts(const Vector &u) const;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <scree/contact/contact_points.h>
+
+#include <utility>
+#include <vector>
+
+namespace scree
+{
+/**
+ * Checks that contact stays on the contact surface, which ends where the gap was 2 shift at the
+ * start. Collective.
+ *
+ * @param shift the bound on phi on the contact surface [L]
+ * @throws UserError if points near its end carry pressure
+ */
+template <int dim>
+void require_contact_within_reach(const ContactPoints<dim> &contact, const double shift,
+                                  const MPI_Comm communicator);
+
+/**
+ * Pairs that may have met although no contact was looked for between them: their boxes, widened by
+ * the largest displacement of each body, intersect.
+ *
+ * @param motion largest |u| of each body [L]
+ */
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>>
+pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+                        const ContactParameters &parameters, const std::vector<double> &motion);
+} // namespace scree
