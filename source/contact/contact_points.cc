@@ -200,8 +200,7 @@ template <int dim>
 void
 ContactPoints<dim>::add_to_residual(Vector &residual) const
 {
-  std::vector<double>   block;
-  std::vector<DofIndex> indices;
+  std::vector<double> block;
   for (const Group &group : groups)
     {
       block.assign(group.n_nodes * dim, 0.);
@@ -215,11 +214,7 @@ ContactPoints<dim>::add_to_residual(Vector &residual) const
             for (unsigned int d = 0; d < dim; ++d)
               block[i * dim + d] += weight[i] * force[d];
         }
-      indices.clear();
-      for (unsigned int i = 0; i < group.n_nodes; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          indices.push_back(group_nodes[group.first_node + i] + d);
-      residual.add(indices, block);
+      residual.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
     }
 }
 
@@ -228,7 +223,6 @@ void
 ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
 {
   dealii::FullMatrix<double> block;
-  std::vector<DofIndex>      indices;
   for (const Group &group : groups)
     {
       block.reinit(group.n_nodes * dim, group.n_nodes * dim);
@@ -250,11 +244,7 @@ ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
         }
       if (!is_closed)
         continue;
-      indices.clear();
-      for (unsigned int i = 0; i < group.n_nodes; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          indices.push_back(group_nodes[group.first_node + i] + d);
-      matrix.add(indices, block);
+      matrix.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
     }
 }
 

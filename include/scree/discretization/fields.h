@@ -27,6 +27,18 @@ struct ActiveCell
 /** A linear combination of nodes: sum_i weight_i u(node_i), node given by its first unknown. */
 using NodeStencil = std::vector<std::pair<DofIndex, double>>;
 
+/** Unknowns of a list of nodes, component by component. */
+template <int dim>
+std::vector<DofIndex>
+unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
+{
+  std::vector<DofIndex> indices(n_nodes * dim);
+  for (unsigned int i = 0; i < n_nodes; ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+      indices[i * dim + d] = nodes[i] + d;
+  return indices;
+}
+
 /**
  * The unknowns. Bodies that are apart share a field: one hp DoFHandler (Q_k or nothing) per colour
  * of the conflict graph, where two bodies conflict if their active cells plus one layer of vertex

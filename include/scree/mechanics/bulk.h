@@ -11,18 +11,6 @@
 
 namespace scree
 {
-/** Unknowns of a list of nodes, component by component. */
-template <int dim>
-std::vector<DofIndex>
-unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
-{
-  std::vector<DofIndex> indices(n_nodes * dim);
-  for (unsigned int i = 0; i < n_nodes; ++i)
-    for (unsigned int d = 0; d < dim; ++d)
-      indices[i * dim + d] = nodes[i] + d;
-  return indices;
-}
-
 /** Displacement, its gradient and what follows from them at a point of a body. */
 template <int dim>
 struct BulkSample
