@@ -42,7 +42,7 @@ struct AdvectionCount
  * finite.
  */
 template <int dim>
-AdvectionCount advect(Lattice<dim> &lattice,
+AdvectionCount advect(Lattice<dim>                                           &lattice,
                       const std::function<void(double, NodalVectors<dim> &)> &velocity,
                       double duration, const AdvectionScheme &scheme = AdvectionScheme());
 

@@ -61,9 +61,9 @@ struct StageWeights
  *
  * The WENO weights use `epsilon = 0.1 h^2` beside the smoothness `13 (a - b)^2 + 3 (...)^2` of
  * undivided second differences a, b, ..., for slopes of order one as a distance has them. A kink
- * has a smoothness of some 10 h^2 and is still left out of the stencil; the usual 1e-6 also switches
- * at bends of the contour that the grid resolves (Zalesak's disc on 100^2: area -0.92 % and
- * L1/perimeter 0.128 instead of -0.21 % and 0.091).
+ * has a smoothness of some 10 h^2 and is still left out of the stencil; the usual 1e-6 also
+ * switches at bends of the contour that the grid resolves (Zalesak's disc on 100^2: area -0.92 %
+ * and L1/perimeter 0.128 instead of -0.21 % and 0.091).
  */
 template <int dim>
 void hj_stage(const HaloGrid<dim> &grid, Upwinding upwinding,

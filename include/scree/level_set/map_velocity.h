@@ -8,7 +8,7 @@ namespace scree
 {
 /**
  * The velocity that belongs to the motion `x = X + tau du(X)`, at the nodes of a dense lattice:
- * `v(x) = du(X(x))`, so that the points that start on a lattice node's path keep their velocity.
+ * `v(x) = du(X(x))`, for every point keeps its velocity from tau = 0 to 1.
  *
  * Solves `w - du(x - tau w) = 0` for w at every node by `w <- w - (I + tau G)^{-1} r` with the
  * central differences G of du at x (exact in one step where du is linear) from the given w, down
