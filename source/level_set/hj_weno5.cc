@@ -48,8 +48,10 @@ weno5_term(const double *phi, const std::ptrdiff_t s, const double v, const doub
                d3 = phi[s] - phi[0], d4 = phi[2 * s] - phi[s], d5 = phi[3 * s] - phi[2 * s];
   const double central = (7. / 12.) * (d2 + d3) - (1. / 12.) * (d1 + d4);
   const double left2 = d1 - d0, left = d2 - d1, c = d3 - d2, right = d4 - d3, right2 = d5 - d4;
-  const bool   forward = v > 0;
-  const double a = forward ? left2 : right2, b = forward ? left : right, d = forward ? right : left;
+  // 1 or 0, and sums instead of three selections: those become branches without AVX-512
+  const double forward = v > 0 ? 1. : 0.;
+  const double a = right2 + forward * (left2 - right2), b = right + forward * (left - right),
+               d  = left + forward * (right - left);
   const double s0 = epsilon + 13 * (a - b) * (a - b) + 3 * (a - 3 * b) * (a - 3 * b);
   const double s1 = epsilon + 13 * (b - c) * (b - c) + 3 * (b + c) * (b + c);
   const double s2 = epsilon + 13 * (c - d) * (c - d) + 3 * (3 * c - d) * (3 * c - d);

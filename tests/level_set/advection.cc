@@ -185,7 +185,7 @@ TEST(SemiLagrangian, HasOrderFourOnSmoothData)
 
 // A disc off the centre of turning, 50 steps of 7.2 degrees. The flow of the frozen velocity
 // du = (R - I) x shrinks areas by exp(2 cos theta - 2) per step: the map matters.
-TEST(Increments, TurnADiscByOneRevolution)
+TEST(ReleaseIncrements, TurnADiscByOneRevolution)
 {
   const double   h = 0.4, radius = 6;
   const Point<2> centre(3, 1);
@@ -243,7 +243,7 @@ TEST(Increments, ShearADiscTo100Percent)
     }
 }
 
-TEST(Increments, TurnABallIn3d)
+TEST(ReleaseIncrements, TurnABallIn3d)
 {
   const double h = 0.1, angle = numbers::PI / 20;
   const auto   ball = [](const Point<3> &x) { return (x - Point<3>(0.3, 0.1, -0.1)).norm() - 0.5; };
