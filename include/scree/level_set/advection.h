@@ -1,0 +1,63 @@
+#pragma once
+
+#include <scree/level_set/hj_weno5.h>
+#include <scree/level_set/lattice.h>
+
+#include <functional>
+
+namespace scree
+{
+/** Vectors at the nodes of a lattice: one array per component, in the order of its values. */
+template <int dim>
+using NodalVectors = std::array<std::vector<double>, dim>;
+
+/** How `phi_t + v . grad phi = 0` is solved on a lattice. */
+struct AdvectionScheme
+{
+  Upwinding    upwinding  = Upwinding::weno5;
+  unsigned int time_order = 3;   // 1, 2 or 3: TVD Runge-Kutta (Shu & Osher, 1988)
+  double       cfl        = 0.5; // dt sum_i |v_i| / h, at most
+};
+
+/** How a level set follows a displacement increment du. */
+enum class IncrementMotion
+{
+  semi_lagrangian, // phi_new(x) = phi(X), X + du(X) = x; the whole increment at once
+  map_velocity,    // v(x, tau) = du(X), X + tau du(X) = x, tau from 0 to 1
+  frozen_velocity  // v = du: its flow differs from the map by O(|du| |grad du|)
+};
+
+/** What an update took. */
+struct AdvectionCount
+{
+  unsigned int n_steps;
+  std::size_t  n_unconverged; // nodes whose back-trace failed, summed over stages: should be 0
+};
+
+/**
+ * Solves `phi_t + v . grad phi = 0` for a time `duration` with nodal velocities (length per time),
+ * in equal steps under the CFL bound of the velocity at their start. `velocity(t, v)` fills the
+ * arrays for time t after the start; an update at `t` begins with what the last call left in v.
+ * Beyond the ends of the lattice phi is continued linearly. Throws ExcMessage if a velocity is not
+ * finite.
+ */
+template <int dim>
+AdvectionCount advect(Lattice<dim>                                           &lattice,
+                      const std::function<void(double, NodalVectors<dim> &)> &velocity,
+                      double duration, const AdvectionScheme &scheme = AdvectionScheme());
+
+/** The same with a velocity that does not depend on time. */
+template <int dim>
+AdvectionCount advect(Lattice<dim> &lattice, const NodalVectors<dim> &velocity, double duration,
+                      const AdvectionScheme &scheme = AdvectionScheme());
+
+/**
+ * Moves the level set by the increment `x = X + du(X)`, du nodal (length, finite at all nodes). The
+ * semi-Lagrangian update interpolates phi with cubic polynomials and has no step bound; `scheme`
+ * is for the other two. Back-trace: see map_velocity().
+ */
+template <int dim>
+AdvectionCount advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du,
+                                IncrementMotion        motion = IncrementMotion::semi_lagrangian,
+                                const AdvectionScheme &scheme = AdvectionScheme());
+} // namespace scree

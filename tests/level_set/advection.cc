@@ -1,0 +1,403 @@
+#include <gtest/gtest.h>
+
+#include <scree/level_set/advection.h>
+#include <scree/level_set/map_velocity.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+// A lattice over [-size, size]^dim.
+template <int dim, typename F>
+Lattice<dim>
+sampled(const double spacing, const double size, const F &f)
+{
+  LatticeFrame<dim> frame;
+  frame.spacing = spacing;
+  std::array<int, dim> lower, count;
+  const int            n = static_cast<int>(std::lround(size / spacing));
+  lower.fill(-n);
+  count.fill(2 * n + 1);
+  Lattice<dim> lattice(frame, lower, count);
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    lattice.values()[i] = f(lattice.node(lattice.index(i)));
+  return lattice;
+}
+
+template <int dim>
+NodalVectors<dim>
+vectors(const Lattice<dim> &lattice, const std::function<Tensor<1, dim>(const Point<dim> &)> &f)
+{
+  NodalVectors<dim> result;
+  for (auto &component : result)
+    component.resize(lattice.values().size());
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    {
+      const Tensor<1, dim> v = f(lattice.node(lattice.index(i)));
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d][i] = v[d];
+    }
+  return result;
+}
+
+template <int dim>
+Point<dim>
+turned(const Point<dim> &x, const double angle)
+{
+  Point<dim> result = x;
+  result[0]         = std::cos(angle) * x[0] - std::sin(angle) * x[1];
+  result[1]         = std::sin(angle) * x[0] + std::cos(angle) * x[1];
+  return result;
+}
+
+// The body {phi < 0}, star-shaped about a centre, against another one: areas by rays.
+struct Comparison
+{
+  double area;     // relative error
+  double distance; // largest |phi_exact| on the contour: the Hausdorff distance for a disc
+};
+
+template <typename F>
+Comparison
+compare(const Lattice<2> &lattice, const Point<2> &centre, const double reach, const F &exact)
+{
+  const int  n_rays = 720;
+  double     area = 0, exact_area = 0, distance = 0;
+  const auto root = [&](const auto &phi, const Tensor<1, 2> &ray) {
+    double low = 0, high = reach;
+    for (int i = 0; i < 50; ++i)
+      {
+        const double middle                           = 0.5 * (low + high);
+        (phi(centre + middle * ray) < 0 ? low : high) = middle;
+      }
+    return low;
+  };
+  for (int i = 0; i < n_rays; ++i)
+    {
+      const double       angle = 2 * numbers::PI * i / n_rays;
+      const Tensor<1, 2> ray({std::cos(angle), std::sin(angle)});
+      const double       r = root([&](const Point<2> &x) { return lattice.value(x, 3); }, ray),
+                   s       = root(exact, ray);
+      area += r * r;
+      exact_area += s * s;
+      distance = std::max(distance, std::abs(exact(Point<2>(centre + r * ray))));
+    }
+  return {area / exact_area - 1, distance};
+}
+
+const char *
+name(const IncrementMotion motion)
+{
+  return motion == IncrementMotion::semi_lagrangian ? "semi-Lagrangian"
+         : motion == IncrementMotion::map_velocity  ? "map velocity"
+                                                    : "frozen velocity";
+}
+
+// The velocity of the map of a turn, v(x, tau) = du(X), in closed form.
+TEST(MapVelocity, SolvesTheMapOfATurn)
+{
+  for (const double angle : {0.126, 1.2})
+    {
+      const auto lattice = sampled<2>(0.1, 1, [](const Point<2> &) { return 0.; });
+      const auto du = vectors<2>(lattice, [&](const Point<2> &x) { return turned(x, angle) - x; });
+      NodalVectors<2> v = du;
+      EXPECT_EQ(map_velocity<2>(lattice.n_nodes(), 0.1, du, 0.6, v), 0u);
+      for (std::size_t i = 0; i < v[0].size(); ++i)
+        {
+          const Point<2> x = lattice.node(lattice.index(i));
+          const Point<2> X(x[0] - 0.6 * v[0][i], x[1] - 0.6 * v[1][i]);
+          EXPECT_NEAR((X + 0.6 * (turned(X, angle) - X) - x).norm(), 0, 1e-10);
+        }
+    }
+}
+
+TEST(MapVelocity, SolvesACurvedMapIn3d)
+{
+  std::array<double, 2> errors;
+  for (const int level : {0, 1})
+    {
+      const double h       = 0.1 / (1 + level);
+      const auto   lattice = sampled<3>(h, 1, [](const Point<3> &) { return 0.; });
+      const auto   map     = [](const Point<3> &x) {
+        return Tensor<1, 3>(
+          {0.2 * std::sin(2 * x[1]), 0.1 * std::cos(x[2] + x[0]), 0.2 * x[0] * x[1]});
+      };
+      const auto      du = vectors<3>(lattice, map);
+      NodalVectors<3> v  = du;
+      EXPECT_EQ(map_velocity<3>(lattice.n_nodes(), h, du, 1., v), 0u);
+      errors[level] = 0;
+      for (std::size_t i = 0; i < v[0].size(); ++i)
+        {
+          const Point<3> x = lattice.node(lattice.index(i));
+          const Point<3> X = x - Tensor<1, 3>({v[0][i], v[1][i], v[2][i]});
+          if (x.norm() < 0.7)
+            errors[level] = std::max(errors[level], (X + map(X) - x).norm());
+        }
+    }
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 3.5);
+  EXPECT_LT(errors[1], 1e-6);
+}
+
+TEST(MapVelocity, CountsNodesWhereTheMapFolds)
+{
+  const auto      lattice = sampled<2>(0.1, 1, [](const Point<2> &) { return 0.; });
+  const auto      du      = vectors<2>(lattice, [](const Point<2> &x) {
+    return Tensor<1, 2>({-1.5 * std::sin(9 * x[0]), 0.});
+  });
+  NodalVectors<2> v       = du;
+  EXPECT_GT(map_velocity<2>(lattice.n_nodes(), 0.1, du, 1., v), 0u);
+}
+
+// Ten semi-Lagrangian steps of a smooth bump: the error of cubic interpolation, order 4.
+TEST(SemiLagrangian, HasOrderFourOnSmoothData)
+{
+  std::array<double, 3> errors;
+  const auto            bump
+    = [](const Point<2> &x) { return std::exp(-25 * (x - Point<2>(0.35, 0.1)).norm_square()); };
+  for (unsigned int level = 0; level < 3; ++level)
+    {
+      const double step    = 0.13;
+      auto         lattice = sampled<2>(0.04 / (1 << level), 1, bump);
+      const auto   du = vectors<2>(lattice, [&](const Point<2> &x) { return turned(x, step) - x; });
+      for (int i = 0; i < 10; ++i)
+        EXPECT_EQ(advect_increment<2>(lattice, du).n_unconverged, 0u);
+      errors[level] = 0;
+      for (std::size_t i = 0; i < lattice.values().size(); ++i)
+        {
+          const Point<2> x = lattice.node(lattice.index(i));
+          if (x.norm() < 0.9)
+            errors[level] = std::max(errors[level],
+                                     std::abs(lattice.values()[i] - bump(turned(x, -10 * step))));
+        }
+    }
+  std::cout << "errors " << errors[0] << ' ' << errors[1] << ' ' << errors[2] << ", orders "
+            << std::log2(errors[0] / errors[1]) << ' ' << std::log2(errors[1] / errors[2]) << '\n';
+  EXPECT_GT(std::log2(errors[1] / errors[2]), 3.5);
+}
+
+// A disc off the centre of turning, 50 steps of 7.2 degrees. The flow of the frozen velocity
+// du = (R - I) x shrinks areas by exp(2 cos theta - 2) per step: the map matters.
+TEST(ReleaseIncrements, TurnADiscByOneRevolution)
+{
+  const double   h = 0.4, radius = 6;
+  const Point<2> centre(3, 1);
+  const auto     disc = [&](const Point<2> &x) { return (x - centre).norm() - radius; };
+  for (const auto motion : {IncrementMotion::semi_lagrangian, IncrementMotion::map_velocity,
+                            IncrementMotion::frozen_velocity})
+    {
+      auto       lattice = sampled<2>(h, 14, disc);
+      const auto du      = vectors<2>(
+        lattice, [&](const Point<2> &x) { return turned(x, 2 * numbers::PI / 50) - x; });
+      AdvectionCount total{0, 0};
+      for (int step = 0; step < 50; ++step)
+        {
+          const AdvectionCount count = advect_increment<2>(lattice, du, motion);
+          total.n_steps += count.n_steps;
+          total.n_unconverged += count.n_unconverged;
+        }
+      const Comparison end = compare(lattice, centre, 9, disc);
+      std::cout << name(motion) << ": area " << end.area << ", distance/h " << end.distance / h
+                << ", steps " << total.n_steps << '\n';
+      EXPECT_EQ(total.n_unconverged, 0u);
+      if (motion == IncrementMotion::frozen_velocity)
+        EXPECT_NEAR(end.area, std::expm1(50 * (2 * std::cos(2 * numbers::PI / 50) - 2)), 1e-3);
+      else
+        {
+          EXPECT_LT(std::abs(end.area), 1e-3);
+          EXPECT_LT(end.distance, h / 4);
+        }
+    }
+}
+
+// Simple shear to 100 % in 50 steps; du(x) = (0.02 y, 0), for which map and flow agree.
+TEST(Increments, ShearADiscTo100Percent)
+{
+  const double h = 0.4, radius = 6;
+  // a distance near the contour: f / |grad f| of the sheared disc f = |X| - radius
+  const auto sheared = [&](const Point<2> &x) {
+    const double X = x[0] - x[1], r = std::hypot(X, x[1]) + 1e-300;
+    return (r - radius) / std::hypot(X / r, (x[1] - X) / r);
+  };
+  for (const auto motion : {IncrementMotion::semi_lagrangian, IncrementMotion::map_velocity,
+                            IncrementMotion::frozen_velocity})
+    {
+      auto       lattice = sampled<2>(h, 16, [&](const Point<2> &x) { return x.norm() - radius; });
+      const auto du      = vectors<2>(lattice, [](const Point<2> &x) {
+        return Tensor<1, 2>({0.02 * x[1], 0.});
+      });
+      for (int step = 0; step < 50; ++step)
+        EXPECT_EQ(advect_increment<2>(lattice, du, motion).n_unconverged, 0u);
+      const Comparison end = compare(lattice, Point<2>(), 14, sheared);
+      std::cout << name(motion) << ": area " << end.area << ", distance/h " << end.distance / h
+                << '\n';
+      EXPECT_LT(std::abs(end.area), 1e-3);
+      EXPECT_LT(end.distance, h / 4);
+    }
+}
+
+TEST(ReleaseIncrements, TurnABallIn3d)
+{
+  const double h = 0.1, angle = numbers::PI / 20;
+  const auto   ball = [](const Point<3> &x) { return (x - Point<3>(0.3, 0.1, -0.1)).norm() - 0.5; };
+  for (const auto motion : {IncrementMotion::semi_lagrangian, IncrementMotion::map_velocity})
+    {
+      auto       lattice = sampled<3>(h, 1.3, ball);
+      const auto du = vectors<3>(lattice, [&](const Point<3> &x) { return turned(x, angle) - x; });
+      for (int step = 0; step < 10; ++step)
+        EXPECT_EQ(advect_increment<3>(lattice, du, motion).n_unconverged, 0u);
+      double error = 0;
+      for (std::size_t i = 0; i < lattice.values().size(); ++i)
+        {
+          const Point<3> X = turned(lattice.node(lattice.index(i)), -10 * angle);
+          if (std::abs(ball(X)) < h)
+            error = std::max(error, std::abs(lattice.values()[i] - ball(X)));
+        }
+      std::cout << name(motion) << ": error/h " << error / h << '\n';
+      EXPECT_LT(error, 0.02 * h);
+    }
+}
+
+TEST(Increments, RefuseWhatIsNotFinite)
+{
+  auto lattice = sampled<2>(0.1, 1, [](const Point<2> &x) { return x.norm() - 0.5; });
+  auto du      = vectors<2>(lattice, [](const Point<2> &) { return Tensor<1, 2>(); });
+  du[1][7]     = std::numeric_limits<double>::quiet_NaN();
+  deal_II_exceptions::disable_abort_on_exception();
+  EXPECT_THROW(advect_increment<2>(lattice, du), ExceptionBase);
+  EXPECT_THROW(advect_increment<2>(lattice, du, IncrementMotion::map_velocity), ExceptionBase);
+  EXPECT_THROW(advect<2>(lattice, du, 1.), ExceptionBase);
+}
+
+// The vortex of LeVeque (SIAM J. Numer. Anal. 33, 1996) in the unit box, moved to [-1/2, 1/2]^2;
+// times cos(pi t / T) it returns everything to its place at t = T.
+Tensor<1, 2>
+vortex(const Point<2> &x)
+{
+  const double s = std::cos(numbers::PI * x[0]), t = std::cos(numbers::PI * x[1]);
+  return Tensor<1, 2>(
+    {s * s * std::sin(2 * numbers::PI * x[1]), -t * t * std::sin(2 * numbers::PI * x[0])});
+}
+
+const Point<2> vortex_centre(0, 0.25);
+
+double
+vortex_disc(const Point<2> &x)
+{
+  return (x - vortex_centre).norm() - 0.15;
+}
+
+// There and back on 128^2 spacings.
+TEST(Vortex, ReversesADiscWithWeno5)
+{
+  const double h = 1. / 128, period = 2;
+  auto         lattice = sampled<2>(h, 0.5, vortex_disc);
+  const auto   field   = vectors<2>(lattice, vortex);
+  advect<2>(
+    lattice,
+    [&](const double t, NodalVectors<2> &v) {
+      const double factor = std::cos(numbers::PI * t / period);
+      for (unsigned int d = 0; d < 2; ++d)
+        for (std::size_t i = 0; i < v[d].size(); ++i)
+          v[d][i] = factor * field[d][i];
+    },
+    period);
+  const Comparison end = compare(lattice, vortex_centre, 0.2, vortex_disc);
+  std::cout << "area " << end.area << ", distance/h " << end.distance / h << '\n';
+  EXPECT_LT(std::abs(end.area), 2e-4);
+  EXPECT_LT(end.distance, h / 4);
+}
+
+// The same by semi-Lagrangian increments, whose du are the paths of the nodes over a step.
+TEST(Vortex, ReversesADiscBySemiLagrangianIncrements)
+{
+  const double h = 1. / 128, period = 2;
+  const int    n_steps = 20;
+  auto         lattice = sampled<2>(h, 0.5, vortex_disc);
+  for (int step = 0; step < n_steps; ++step)
+    {
+      // x' = v(x) g(t): the path is that of the steady vortex over the integral of g
+      const auto primitive
+        = [&](const int k) { return period / numbers::PI * std::sin(numbers::PI * k / n_steps); };
+      const double duration = primitive(step + 1) - primitive(step);
+      const auto   du       = vectors<2>(lattice, [&](const Point<2> &start) {
+        Point<2> x = start;
+        for (int part = 0; part < 4; ++part)
+          {
+            const double       dt = duration / 4;
+            const Tensor<1, 2> a = vortex(x), b = vortex(x + 0.5 * dt * a),
+                               c = vortex(x + 0.5 * dt * b), d = vortex(x + dt * c);
+            x += dt / 6 * (a + 2. * b + 2. * c + d);
+          }
+        return x - start;
+      });
+      EXPECT_EQ(advect_increment<2>(lattice, du).n_unconverged, 0u);
+    }
+  const Comparison end = compare(lattice, vortex_centre, 0.2, vortex_disc);
+  std::cout << "area " << end.area << ", distance/h " << end.distance / h << '\n';
+  EXPECT_LT(std::abs(end.area), 2e-4);
+  EXPECT_LT(end.distance, h / 4);
+}
+
+double
+distance_to_segment(const Point<2> &x, const Point<2> &a, const Point<2> &b)
+{
+  const double t = std::clamp((x - a) * (b - a) / (b - a).norm_square(), 0., 1.);
+  return (x - a - t * (b - a)).norm();
+}
+
+// The slotted disc of Zalesak (J. Comput. Phys. 31, 1979): radius 15 about (0, 25), slot of width 5
+// and length 25 from below.
+double
+slotted_disc(const Point<2> &x)
+{
+  const Point<2> centre(0, 25);
+  const double   end = 25 - std::sqrt(15. * 15 - 2.5 * 2.5), top = 35;
+  const bool     inside = (x - centre).norm() < 15 && !(std::abs(x[0]) < 2.5 && x[1] < top);
+  const Point<2> a(-2.5, end), b(-2.5, top), c(2.5, top), d(2.5, end);
+  double         distance = std::min(
+            {distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, d)});
+  const Tensor<1, 2> from = x - centre;
+  if (!(std::abs(from[0]) < 2.5 * from.norm() / 15 && from[1] < 0))
+    distance = std::min(distance, std::abs(from.norm() - 15));
+  return inside ? -distance : distance;
+}
+
+// One turn in 628 units of time on 100^2 spacings.
+TEST(Zalesak, TurnsTheSlottedDiscOnce)
+{
+  auto                 lattice = sampled<2>(1., 50., slotted_disc);
+  const auto           v       = vectors<2>(lattice, [](const Point<2> &x) {
+    return 2 * numbers::PI / 628 * Tensor<1, 2>({-x[1], x[0]});
+  });
+  const AdvectionCount count   = advect<2>(lattice, v, 628.);
+
+  const int n    = 10; // samples per spacing
+  double    area = 0, exact_area = 0, difference = 0;
+  for (int i = 0; i < 100 * n; ++i)
+    for (int j = 0; j < 100 * n; ++j)
+      {
+        const Point<2> x(-50 + (i + 0.5) / n, -50 + (j + 0.5) / n);
+        const bool     is = lattice.value(x, 1) < 0, was = slotted_disc(x) < 0;
+        area += is;
+        exact_area += was;
+        difference += is != was;
+      }
+  const double perimeter
+    = 2 * (10 + std::sqrt(15. * 15 - 2.5 * 2.5)) + 5 + 2 * 15 * (numbers::PI - std::asin(2.5 / 15));
+  const double L1 = difference / (n * n) / perimeter;
+  std::cout << "area " << area / exact_area - 1 << ", L1/perimeter " << L1 << ", steps "
+            << count.n_steps << '\n';
+  EXPECT_NEAR(exact_area / (n * n), 582.2, 0.5);
+  EXPECT_LT(std::abs(area / exact_area - 1), 0.005);
+  EXPECT_LT(L1, 0.10);
+}
+} // namespace
+} // namespace scree
