@@ -312,16 +312,17 @@ Simulation<dim>::first_guess(const double time)
 {
   using Vector     = typename Equilibrium<dim>::Vector;
   Vector unchanged = state.displacement;
+  equilibrium->set_time(time, unchanged);
   if (last_increment.size() == 0)
     return unchanged;
-  const auto residual_of = [&](Vector &u) {
+  const auto residual_of = [&](const Vector &u) {
     Vector r(u);
-    equilibrium->set_time(time, u);
     equilibrium->residual(u, state.contact, r);
     return r.l2_norm();
   };
   Vector extrapolated = state.displacement;
   extrapolated.add(time - state.time, last_increment);
+  equilibrium->strong_supports().set(extrapolated, time);
   return residual_of(extrapolated) < residual_of(unchanged) ? extrapolated : unchanged;
 }
 
@@ -334,7 +335,7 @@ Simulation<dim>::solve_step(const double time)
   record.step               = step;
   record.time               = time;
   auto               u      = first_guess(time);
-  const NewtonResult result = solve_equilibrium(time, u);
+  const NewtonResult result = solve_equilibrium(u);
   record.newton_iterations  = result.iterations;
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
   if (!result.converged())
@@ -392,7 +393,7 @@ Simulation<dim>::slides_away(const unsigned int body) const
 
 template <int dim>
 NewtonResult
-Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u)
+Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
 {
   using Vector = typename Equilibrium<dim>::Vector;
   Newton::Hooks hooks;
@@ -430,7 +431,6 @@ Simulation<dim>::solve_equilibrium(const double time, typename Equilibrium<dim>:
     log.progress(step_control.time() / parameters.time.end_time,
                  "step " + std::to_string(record.step) + ", " + text);
   };
-  equilibrium->set_time(time, u);
   return Newton(parameters.newton, hooks).solve(u);
 }
 

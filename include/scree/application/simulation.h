@@ -43,10 +43,10 @@ private:
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   bool                              solve_step(const double time);
-  NewtonResult        solve_equilibrium(const double time, typename Equilibrium<dim>::Vector &u);
-  void                report_step(const double wall_time);
-  [[noreturn]] void   throw_slides_away(const unsigned int body) const;
-  std::vector<double> contact_force_on_bodies() const;
+  NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
+  void                              report_step(const double wall_time);
+  [[noreturn]] void                 throw_slides_away(const unsigned int body) const;
+  std::vector<double>               contact_force_on_bodies() const;
   /** Whether the contact force on a body vanished in the course of the Newton iterations. */
   bool lost_contact(const unsigned int body) const;
   /** Whether neither supports nor contact resist all motions of a body, or it lost its contact. */
