@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/bodies/body.h>
 #include <scree/geometry/level_set_from_shape.h>
+#include <scree/parameters/expression_entry.h>
 
 #include <deal.II/boost_adaptors/bounding_box.h>
 
@@ -29,14 +30,7 @@ BodyParameters<dim>::declare(ParameterSection &section)
       conditions.emplace_back(condition_name, BoundaryConditionParameters<dim>());
       conditions.back().second.declare(subsection);
     }
-  try
-    {
-      Expression<dim>(body_force, dim, "Body force");
-    }
-  catch (const UserError &error)
-    {
-      section.error("Body force", error.what(), "");
-    }
+  check_expression<dim>(section, "Body force", body_force, dim);
 }
 
 template <int dim>

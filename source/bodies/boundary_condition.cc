@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/bodies/boundary_condition.h>
+#include <scree/parameters/expression_entry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,22 +137,8 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
           || type == ConditionType::springs))
     section.error("Value", "a " + name_of(condition_type_names, type) + " condition needs a value",
                   "set Value = expression(s) of x, y, z, t");
-  try
-    {
-      Expression<dim>(where, 1, "Where");
-    }
-  catch (const UserError &error)
-    {
-      section.error("Where", error.what(), "");
-    }
-  try
-    {
-      Expression<dim>(value_text(*this), n_values(*this), "Value");
-    }
-  catch (const UserError &error)
-    {
-      section.error("Value", error.what(), "");
-    }
+  check_expression<dim>(section, "Where", where, 1);
+  check_expression<dim>(section, "Value", value_text(*this), n_values(*this));
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 #include <scree/base/expression.h>
 #include <scree/geometry/composed_shapes.h>
 #include <scree/geometry/simple_shapes.h>
+#include <scree/parameters/expression_entry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,14 +230,7 @@ check_expression(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   if (p.expression.empty())
     return;
-  try
-    {
-      const Expression<dim> expression(p.expression, 1, "Expression");
-    }
-  catch (const UserError &error)
-    {
-      section.error("Expression", error.what());
-    }
+  check_expression<dim>(section, "Expression", p.expression, 1);
 }
 
 template <int dim>

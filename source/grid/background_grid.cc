@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/grid/background_grid.h>
+#include <scree/parameters/expression_entry.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
@@ -99,14 +100,7 @@ GridParameters<dim>::declare(ParameterSection &section)
     section.error("Cell size limit", "a uniform grid has no use for it",
                   "set Refinement = contact, or remove it");
   if (!cell_size_limit.empty())
-    try
-      {
-        Expression<dim>(cell_size_limit, 1, "Cell size limit");
-      }
-    catch (const UserError &error)
-      {
-        section.error("Cell size limit", error.what(), "");
-      }
+    check_expression<dim>(section, "Cell size limit", cell_size_limit, 1);
 }
 
 template <int dim>
