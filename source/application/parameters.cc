@@ -81,6 +81,10 @@ Parameters<dim>::declare(ParameterFile &file)
       output_section.error("Probes",
                            "probe '" + probe.name + "': there is no body '" + probe.body + "'",
                            "name a body of section Bodies");
+
+  ParameterSection study_section = root.subsection(
+    "Refinement study", "The same problem on finer and finer grids, and how results converge.");
+  study.declare(study_section, grid);
 }
 
 template struct OutputParameters<2>;
