@@ -253,7 +253,8 @@ Simulation<dim>::slides_away(const unsigned int body) const
 
 template <int dim>
 LinearSolveResult
-Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du)
+Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                     LinearSolver::Vector &du)
 {
   const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
   if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points))
@@ -277,7 +278,7 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver
     return &equilibrium->tangent();
   }();
   const Timings::Scope scope(timings, "linear solver");
-  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric(), tolerance);
 }
 
 template <int dim>
@@ -290,8 +291,8 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     const Timings::Scope scope(timings, "residual");
     equilibrium->residual(u, state.contact, r);
   };
-  hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
-    const auto solved = solve_linear_system(r, du);
+  hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
+    const auto solved = solve_linear_system(r, tolerance, du);
     record.linear_iterations += solved.iterations;
   };
   hooks.reference = [&]() {

@@ -1,21 +1,19 @@
 #include <scree/solver/linear_solver.h>
+#include <scree/solver/multigrid.h>
 #include <scree/solver/mumps.h>
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_precondition.h>
 
 #include <Amesos.h>
 #include <Epetra_LinearProblem.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
-#include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <ml_MultiLevelPreconditioner.h>
 #include <sstream>
 
 namespace scree
@@ -69,51 +67,6 @@ relative_residual(const LinearSolver::Matrix &A, const LinearSolver::Vector &x,
 {
   LinearSolver::Vector r(b);
   return A.residual(r, x, b) / b.l2_norm();
-}
-
-/**
- * Smoothed aggregation with Chebyshev smoothers; `modes` are the near null space, none means the
- * translations of unknowns that are numbered node by node.
- */
-void
-initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matrix &A,
-               const std::vector<LinearSolver::Vector> &modes, const unsigned int dimension,
-               const LinearSolverParameters &parameters, const bool smooth_by_ilu)
-{
-  const Epetra_Map &rows = A.trilinos_matrix().RowMap();
-  // ML needs whole nodes on every process.
-  const bool whole_nodes = dealii::Utilities::MPI::min(
-    rows.NumMyElements() % dimension == 0 ? 1 : 0, A.get_mpi_communicator());
-
-  Teuchos::ParameterList list;
-  ML_Epetra::SetDefaults("SA", list);
-  list.set("ML output", 0);
-  if (smooth_by_ilu)
-    {
-      list.set("smoother: type", "IFPACK");
-      list.set("smoother: ifpack type", "ILU");
-      list.set("smoother: ifpack level-of-fill", 1.);
-    }
-  else
-    {
-      list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", static_cast<int>(parameters.amg_smoother_sweeps));
-    }
-  list.set("coarse: type", "Amesos-KLU");
-  list.set("coarse: max size", 2000);
-  list.set("aggregation: threshold", parameters.amg_aggregation_threshold);
-  list.set("PDE equations", whole_nodes ? static_cast<int>(dimension) : 1);
-
-  Epetra_MultiVector null_space(rows, std::max<int>(1, modes.size()));
-  for (unsigned int k = 0; k < modes.size(); ++k)
-    std::copy(modes[k].begin(), modes[k].end(), null_space[k]);
-  if (!modes.empty())
-    {
-      list.set("null space: type", "pre-computed");
-      list.set("null space: dimension", static_cast<int>(modes.size()));
-      list.set("null space: vectors", null_space.Values());
-    }
-  amg.initialize(A, list);
 }
 
 /** A number with 1/2 <= |s| <= 3/2 that looks random but depends on the index alone. */
@@ -350,7 +303,8 @@ LinearSolver::is_direct(const std::size_t n_unknowns) const
 }
 
 LinearSolveResult
-LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric)
+LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric,
+                    const double tolerance)
 {
   Timer        timer;
   const double norm = b.l2_norm();
@@ -364,7 +318,7 @@ LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symm
   else
     try
       {
-        result = solve_iteratively(A, x, b, symmetric);
+        result = solve_iteratively(A, x, b, symmetric, std::max(tolerance, parameters.tolerance));
       }
     catch (const LinearSolverFailure &)
       {
@@ -398,46 +352,59 @@ LinearSolver::solve_directly(const Matrix &A, Vector &x, const Vector &b, const 
 }
 
 LinearSolveResult
-LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
-                                const bool symmetric) const
+LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b, const bool symmetric,
+                                const double tolerance)
 {
   const bool        cg = parameters.krylov_method == KrylovMethod::automatic
                            ? symmetric
                            : parameters.krylov_method == KrylovMethod::cg;
   LinearSolveResult result;
-  result.method = cg ? "CG+AMG" : "GMRES+AMG";
-  x             = 0;
-  if (b.l2_norm() == 0)
+  result.method     = cg ? "CG+AMG" : "GMRES+AMG";
+  x                 = 0;
+  const double norm = b.l2_norm();
+  if (norm == 0)
     return result;
 
-  for (const Vector &mode : near_null_space)
-    AssertThrow(mode.locally_owned_elements() == b.locally_owned_elements(),
-                ExcMessage("The near null space is not distributed as the rows of the matrix."));
-
-  SolverControl control(parameters.max_iterations, parameters.tolerance * b.l2_norm());
-  try
+  for (bool is_solved = false; !is_solved;)
     {
-      TrilinosWrappers::PreconditionAMG amg;
-      initialize_amg(amg, A, near_null_space, dimension, parameters, smooth_by_ilu);
-      if (cg)
-        SolverCG<Vector>(control).solve(A, x, b, amg);
-      else
-        // Preconditioned from the right, the iteration watches the true residual.
-        SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
-          .solve(A, x, b, amg);
+      const bool is_new = !multigrid || !multigrid->fits(A);
+      if (is_new)
+        multigrid
+          = std::make_unique<Multigrid>(A, near_null_space, dimension, parameters, smooth_by_ilu);
+      SolverControl control(
+        is_new ? parameters.max_iterations
+               : std::min(parameters.max_iterations, multigrid->expected_iterations(tolerance)),
+        tolerance * norm);
+      try
+        {
+          if (cg)
+            SolverCG<Vector>(control).solve(A, x, b, multigrid->preconditioner());
+          else
+            // Preconditioned from the right, the iteration watches the true residual.
+            SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
+              .solve(A, x, b, multigrid->preconditioner());
+          is_solved = true;
+        }
+      catch (const SolverControl::NoConvergence &)
+        {
+          if (is_new)
+            fail(result.method, " did not converge in ", control.last_step(),
+                 " iterations (relative residual ", control.last_value() / norm, ")");
+        }
+      catch (const std::exception &error)
+        {
+          if (is_new)
+            fail(result.method, " failed: ", error.what());
+          x = 0;
+        }
+      result.iterations += control.last_step();
+      if (!is_solved)
+        multigrid.reset();
+      else if (!multigrid->is_worth_keeping(control.last_step(), control.last_value() / norm))
+        multigrid.reset();
     }
-  catch (const SolverControl::NoConvergence &)
-    {
-      fail(result.method, " did not converge in ", control.last_step(),
-           " iterations (relative residual ", control.last_value() / b.l2_norm(), ")");
-    }
-  catch (const std::exception &error)
-    {
-      fail(result.method, " failed: ", error.what());
-    }
-  result.iterations        = control.last_step();
   result.relative_residual = relative_residual(A, x, b);
-  if (!(result.relative_residual <= 100 * parameters.tolerance))
+  if (!(result.relative_residual <= 100 * tolerance))
     fail(result.method, " ended with a relative residual of ", result.relative_residual);
   return result;
 }

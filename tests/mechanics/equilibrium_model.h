@@ -80,7 +80,7 @@ struct EquilibriumModel
   {
     Newton::Hooks hooks;
     hooks.residual = [&](const Vector &u, Vector &r) { equilibrium.residual(u, state.contact, r); };
-    hooks.solve    = [&](const Vector &, const Vector &r, Vector &du) {
+    hooks.solve    = [&](const Vector &, const Vector &r, double, Vector &du) {
       linear_iterations
         = linear_solver.solve(equilibrium.tangent(), du, r, equilibrium.is_symmetric()).iterations;
     };
