@@ -287,9 +287,8 @@ template <int dim>
 std::vector<typename Equilibrium<dim>::Vector>
 Equilibrium<dim>::rigid_motions() const
 {
-  const unsigned int             n_motions = RigidMotions<dim>::n_motions;
-  std::vector<Vector>            result(bodies.size() * n_motions,
-                                        Vector(fields.owned(), fields.grid.communicator()));
+  const unsigned int  n_motions = RigidMotions<dim>::n_motions;
+  std::vector<Vector> result(n_motions, Vector(fields.owned(), fields.grid.communicator()));
   std::vector<RigidMotions<dim>> motions;
   for (const auto &body : bodies)
     motions.emplace_back(body);
@@ -306,7 +305,7 @@ Equilibrium<dim>::rigid_motions() const
               const auto value = motions[cell.body].motion(m, position);
               for (unsigned int d = 0; d < dim; ++d)
                 if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                  result[cell.body * n_motions + m](fields.nodes(a)[i] + d) = value[d];
+                  result[m](fields.nodes(a)[i] + d) = value[d];
             }
         }
     }

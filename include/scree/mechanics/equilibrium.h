@@ -85,7 +85,10 @@ public:
   /** The |r| that round-off in A u leaves at the last residual(). */
   double round_off() const;
 
-  /** Rigid motions of each body, for the near null space. */
+  /**
+   * The rigid motions for the near null space, the same for all bodies: one set per body saves a
+   * tenth of the iterations and makes each of them twice as long.
+   */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
