@@ -122,6 +122,7 @@ Simulation<dim>::set_up()
 
   linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
   linear_solver->set_near_null_space(equilibrium->rigid_motions());
+  linear_solver->set_border(fields->n_trailing());
   results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
                                            parameters.output.probes);
   state   = initial_state(*fields, *contact);
@@ -139,7 +140,9 @@ Simulation<dim>::find_pairs() const
   for (const auto &[a, b] : candidate_pairs(bodies, reach))
     {
       const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
-      if (law.law != ContactLaw::none)
+      const auto is_driven
+        = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
+      if (law.law != ContactLaw::none && !(is_driven(bodies[a]) && is_driven(bodies[b])))
         pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
     }
   return pairs;
@@ -159,6 +162,12 @@ Simulation<dim>::report_set_up()
   const auto volumes = bulk->volumes();
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
+      if (bodies[b].is_rigid())
+        {
+          log.line("Body " + bodies[b].name + ": rigid"
+                   + (bodies[b].rigid->is_free() ? ", driven by forces" : ", motion prescribed"));
+          continue;
+        }
       log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
       require(volumes[b] > 0., bodies[b].path,
               "the body '" + bodies[b].name + "' has no volume on the grid",
@@ -322,7 +331,7 @@ Simulation<dim>::first_guess(const double time)
   };
   Vector extrapolated = state.displacement;
   extrapolated.add(time - state.time, last_increment);
-  equilibrium->strong_supports().set(extrapolated, time);
+  equilibrium->set_prescribed(extrapolated);
   return residual_of(extrapolated) < residual_of(unchanged) ? extrapolated : unchanged;
 }
 
@@ -409,6 +418,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     const Timings::Scope scope(timings, "linear solver");
     const auto           solved = linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
     record.linear_iterations += solved.iterations;
+    equilibrium->shorten(du, grid.finest_size());
   };
   hooks.reference = [&]() {
     return std::max(equilibrium->force_scale(),

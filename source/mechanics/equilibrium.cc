@@ -7,6 +7,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Import.h>
 #include <Epetra_Vector.h>
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -27,12 +28,13 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , boundary_terms(boundary_terms)
     , contact(contact)
     , supports(fields, bodies)
+    , rigid(fields, bodies, contact)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
   for (Vector *vector :
-       {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass, &accepted_u,
-        &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
+       {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass,
+        &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
@@ -49,9 +51,8 @@ Equilibrium<dim>::set_up_matrices()
   const auto     of_bulk      = bulk.couplings();
   const auto     of_contact   = contact.couplings();
   ghosted_dofs                = fields.relevant();
-  for (const auto &nodes : of_contact)
-    for (const DofIndex node : nodes)
-      ghosted_dofs.add_range(node, node + dim);
+  for (const auto &unknowns : of_contact)
+    ghosted_dofs.add_indices(unknowns.begin(), unknowns.end());
   ghosted_dofs.compress();
 
   dealii::DynamicSparsityPattern pattern(fields.n_dofs(), fields.n_dofs(), ghosted_dofs);
@@ -60,12 +61,10 @@ Equilibrium<dim>::set_up_matrices()
       unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
   // Contact stencils have no hanging nodes, but may have nodes that are not relevant here
   // otherwise.
-  for (const auto &nodes : of_contact)
-    {
-      const auto unknowns = unknowns_of_nodes<dim>(nodes.data(), nodes.size());
+  for (const auto &list : {of_contact, rigid.couplings()})
+    for (const auto &unknowns : list)
       for (const DofIndex row : unknowns)
         pattern.add_entries(row, unknowns.begin(), unknowns.end(), true);
-    }
   for (const auto &unknowns : boundary_terms.multiplier_couplings())
     fields.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
   for (const DofIndex index : fields.owned())
@@ -89,6 +88,10 @@ Equilibrium<dim>::resistance_of_supports(const unsigned int       body,
                                          const RigidMotions<dim> &motions) const
 {
   dealii::FullMatrix<double> held = motions.no_resistance();
+  if (bodies[body].is_rigid())
+    for (unsigned int m = 0; m < motions.n_motions; ++m)
+      if (!bodies[body].rigid->is_free(m))
+        motions.add_motion_resistance(m, held);
   for (const auto &unknown : supports.unknowns())
     if (supports.conditions()[unknown.support].first == body)
       motions.add_resistance(unknown.position, unknown.component, 1., held);
@@ -103,7 +106,7 @@ Equilibrium<dim>::resistance_of_supports(const unsigned int       body,
             if (component < dim)
               motions.add_resistance(point.position, component, 1., held);
             else
-              motions.add_rotation_resistance(1., held);
+              motions.add_motion_resistance(motions.n_motions - 1, held);
           }
     }
   return held;
@@ -122,11 +125,21 @@ Equilibrium<dim>::find_free_bodies()
       if (n_free == 0)
         continue;
       free_motions.push_back({b, n_free});
-      factors[b] = artificial_mass_factor * bodies[b].material->young()
-                   / (motions.length() * motions.length());
+      if (!bodies[b].is_rigid())
+        factors[b] = artificial_mass_factor * bodies[b].material->young()
+                     / (motions.length() * motions.length());
     }
   bulk.add_lumped_volumes(artificial_mass, factors);
   artificial_mass.compress(dealii::VectorOperation::add);
+  for (const FreeMotion &free : free_motions)
+    if (bodies[free.body].is_rigid())
+      {
+        const double mass = artificial_mass_factor * rigid.stiffness_scale(free.body);
+        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+          if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
+            artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
+      }
+  artificial_mass.compress(dealii::VectorOperation::insert);
 }
 
 template <int dim>
@@ -142,7 +155,42 @@ Equilibrium<dim>::set_time(const double new_time, Vector &u)
   boundary_terms.add_loads(loads, time, false, true);
   loads.compress(dealii::VectorOperation::add);
   loads += dead_loads;
+  set_prescribed(u);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_prescribed(Vector &u) const
+{
   supports.set(u, time);
+  rigid.set(u, time);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_zero_on_prescribed(Vector &r) const
+{
+  supports.set_zero(r);
+  for (const DofIndex index : rigid.prescribed())
+    r(index) = 0.;
+  r.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::shorten(Vector &du, const double length) const
+{
+  double largest = 0.;
+  if (std::any_of(free_motions.begin(), free_motions.end(),
+                  [&](const FreeMotion &free) { return bodies[free.body].is_rigid(); }))
+    for (const unsigned int body : bodies_not_held())
+      if (bodies[body].is_rigid())
+        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+          if (fields.owned().is_element(fields.rigid_unknown(body) + m))
+            largest = std::max(largest, std::abs(du(fields.rigid_unknown(body) + m)));
+  largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+  if (largest > length)
+    du *= length / largest;
 }
 
 template <int dim>
@@ -155,11 +203,13 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
   contact_forces.compress(dealii::VectorOperation::add);
+  rigid.applied(ghosted, time, applied_forces);
   stiffness.vmult(internal_forces, u);
   r = loads;
   r -= internal_forces;
   r += contact_forces;
-  supports.set_zero(r);
+  r += applied_forces;
+  set_zero_on_prescribed(r);
   for (const auto &line : fields.hanging_constraints().get_lines())
     if (fields.owned().is_element(line.index))
       r(line.index) = 0.;
@@ -172,6 +222,9 @@ Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
   contact.add_to_matrix(newton_matrix);
+  rigid.add_to_matrix(ghosted, time, newton_matrix);
+  for (const DofIndex index : rigid.prescribed())
+    newton_matrix.add(index, index, largest_stiffness);
   if (!free_motions.empty())
     for (const DofIndex index : fields.owned())
       if (artificial_mass(index) != 0.)
@@ -190,6 +243,8 @@ Equilibrium<dim>::eliminate_prescribed(Matrix &matrix) const
   Epetra_Vector owned(epetra.RowMap()), columns(epetra.ColMap());
   for (const auto &unknown : supports.unknowns())
     owned[epetra.RowMap().LID(static_cast<int>(unknown.index))] = 1.;
+  for (const DofIndex index : rigid.prescribed())
+    owned[epetra.RowMap().LID(static_cast<int>(index))] = 1.;
   const Epetra_Import import(epetra.ColMap(), epetra.RowMap());
   columns.Import(owned, import, Insert);
   for (int row = 0; row < epetra.NumMyRows(); ++row)
@@ -212,6 +267,7 @@ Equilibrium<dim>::is_symmetric() const
   for (const auto &response : contact.responses())
     is_symmetric &= response.is_symmetric;
   return boundary_terms.is_symmetric() && !boundary_terms.has_multipliers()
+         && rigid.is_symmetric(time)
          && dealii::Utilities::MPI::max(static_cast<unsigned int>(!is_symmetric),
                                         fields.grid.communicator())
               == 0;
@@ -224,6 +280,7 @@ Equilibrium<dim>::reactions(Vector &result) const
   result = internal_forces;
   result -= contact_forces;
   result -= loads;
+  result -= applied_forces;
 }
 
 template <int dim>
@@ -232,7 +289,8 @@ Equilibrium<dim>::force_scale() const
 {
   Vector all(internal_forces);
   reactions(all);
-  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr();
+  double squares
+    = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr();
   double held    = 0.;
   for (const auto &unknown : supports.unknowns())
     held += all(unknown.index) * all(unknown.index);
@@ -256,34 +314,9 @@ template <int dim>
 std::vector<typename Equilibrium<dim>::Vector>
 Equilibrium<dim>::rigid_motions() const
 {
-  const unsigned int             n_motions = RigidMotions<dim>::n_motions;
-  std::vector<Vector>            result(bodies.size() * n_motions,
-                                        Vector(fields.owned(), fields.grid.communicator()));
-  std::vector<RigidMotions<dim>> motions;
-  for (const auto &body : bodies)
-    motions.emplace_back(body);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-        {
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
-          for (unsigned int m = 0; m < n_motions; ++m)
-            {
-              const auto value = motions[cell.body].motion(m, position);
-              for (unsigned int d = 0; d < dim; ++d)
-                if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                  result[cell.body * n_motions + m](fields.nodes(a)[i] + d) = value[d];
-            }
-        }
-    }
+  std::vector<Vector> result = near_null_space(fields, bodies);
   for (Vector &motion : result)
-    {
-      motion.compress(dealii::VectorOperation::insert);
-      supports.set_zero(motion);
-    }
+    supports.set_zero(motion);
   return result;
 }
 
@@ -330,6 +363,10 @@ Equilibrium<dim>::largest_displacements(const Vector &u) const
         largest         = std::max(largest, displacement.norm());
       }
   dealii::Utilities::MPI::max(result, fields.grid.communicator(), result);
+  const Vector with_ghost_values = with_ghosts(u);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      result[b] = rigid.largest_displacement(b, with_ghost_values);
   return result;
 }
 
@@ -398,6 +435,9 @@ Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghos
       const double motion = u(unknown.index) - accepted_u(unknown.index);
       work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
     }
+  // What drives the rigid bodies: applied forces, or the reactions of prescribed components.
+  forces += applied_forces;
+  work += rigid.work(u, accepted_u, forces, accepted_reactions);
   accepted_reactions = forces;
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/rigid_bodies.h>
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 #include <scree/state/state.h>
@@ -38,7 +39,8 @@ struct FreeMotion
  * The discrete equilibrium r(u) = f(t) - A u - R_contact(u) = 0 of all bodies on a fixed geometry,
  * and its tangent K = A + dR_contact/du. A (bulk, ghost penalty, Nitsche, springs, multipliers) is
  * linear and assembled once; prescribed unknowns are kept in u and eliminated from K, so that A
- * also gives their reactions (method.md sections 3, 7, 8).
+ * also gives their reactions (method.md sections 3, 7, 8). Rigid bodies have rows without A, their
+ * loads f depend on the pose.
  */
 template <int dim>
 class Equilibrium
@@ -53,6 +55,9 @@ public:
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
 
+  /** Sets the prescribed unknowns of the time of set_time() in `u`. */
+  void set_prescribed(Vector &u) const;
+
   /** r(u) with the contact history of the start of the step; zero on prescribed and hanging rows.
    */
   void residual(const Vector &u, const ContactHistory<dim> &history, Vector &r);
@@ -63,13 +68,19 @@ public:
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
 
+  /**
+   * Shortens the increment `du` of the last residual() such that no rigid body that nothing holds
+   * moves farther than `length`: the artificial mass alone would send it anywhere (collective).
+   */
+  void shorten(Vector &du, const double length) const;
+
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
   /** The |r| that round-off in A u leaves at the last residual(). */
   double round_off() const;
 
-  /** Rigid motions of each body, for the near null space. */
+  /** Rigid motions of each deformable body, for the near null space. */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
@@ -83,6 +94,11 @@ public:
    * motions there is no equilibrium under a further load.
    */
   std::vector<unsigned int> bodies_not_held() const;
+
+  const RigidBodies<dim> &rigid_bodies() const
+  {
+    return rigid;
+  }
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -116,6 +132,7 @@ private:
                                                     const RigidMotions<dim> &motions) const;
 
   void   find_free_bodies();
+  void   set_zero_on_prescribed(Vector &r) const;
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
@@ -127,6 +144,7 @@ private:
   const BoundaryTerms<dim>     &boundary_terms;
   ContactPoints<dim>           &contact;
   StrongSupports<dim>           supports;
+  RigidBodies<dim>              rigid;
 
   Matrix                  stiffness;       //!< A
   Matrix                  newton_matrix;   //!< K
@@ -134,6 +152,7 @@ private:
   Vector                  dead_loads;      //!< tractions, pressures and body forces in f
   Vector                  internal_forces; //!< A u of the last residual()
   Vector                  contact_forces;  //!< -R_contact of the last residual()
+  Vector                  applied_forces;  //!< on rigid bodies at the last residual()
   Vector                  artificial_mass; //!< added to the diagonal for free bodies
   Vector                  ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet        ghosted_dofs;

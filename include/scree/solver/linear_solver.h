@@ -142,6 +142,12 @@ public:
   void set_near_null_space(const std::vector<Vector> &modes);
 
   /**
+   * The last unknowns that belong to no node, as those of rigid bodies and multipliers: the AMG
+   * does not see them, see BorderedPreconditioner.
+   */
+  void set_border(const unsigned int n_unknowns);
+
+  /**
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
    * @param symmetric whether A is symmetric positive definite, so that CG may be used
@@ -161,6 +167,7 @@ private:
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
   bool                           smooth_by_ilu;
+  unsigned int                   n_border = 0;
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
 };
