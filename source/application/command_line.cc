@@ -1,4 +1,5 @@
 #include <scree/application/command_line.h>
+#include <scree/application/refinement_study.h>
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 
@@ -119,9 +120,10 @@ prepare_directory(const std::string &directory, const bool is_first)
   std::filesystem::create_directories(directory, error);
   require(!error && std::filesystem::is_directory(directory), "--output " + directory,
           "the directory cannot be made: " + error.message(), "choose another place");
-  require(!std::filesystem::exists(directory + "/history.csv"), "--output " + directory,
-          "the directory already holds results (history.csv)",
-          "remove them or choose another directory: nothing is overwritten");
+  for (const std::string name : {"history.csv", "study.csv", "cycle-0"})
+    require(!std::filesystem::exists(directory + "/" + name), "--output " + directory,
+            "the directory already holds results (" + name + ")",
+            "remove them or choose another directory: nothing is overwritten");
 }
 
 template <int dim>
@@ -140,11 +142,16 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
       std::ofstream resolved(directory + "/parameters.prm");
       file.write(resolved);
     }
-  Simulation<dim> simulation(parameters, directory, communicator);
-  if (arguments.check)
-    simulation.check();
+  const auto run_or_check = [&](auto &&problem) {
+    if (arguments.check)
+      problem.check();
+    else
+      problem.run();
+  };
+  if (parameters.study.n_cycles > 1)
+    run_or_check(RefinementStudy<dim>(parameters, directory, communicator));
   else
-    simulation.run();
+    run_or_check(Simulation<dim>(parameters, directory, communicator));
 }
 
 void

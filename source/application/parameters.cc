@@ -88,6 +88,10 @@ Parameters<dim>::declare(ParameterFile &file)
         output_section.error("Probes",
                              "probe '" + probe.name + "': the body '" + probe.body + "' is rigid",
                              "its motion and load are in history.csv");
+
+  ParameterSection study_section = root.subsection(
+    "Refinement study", "The same problem on finer and finer grids, and how results converge.");
+  study.declare(study_section, grid);
 }
 
 template struct OutputParameters<2>;

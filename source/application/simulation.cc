@@ -1,18 +1,15 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/contact/contact_reach.h>
-#include <scree/output/region_output.h>
+#include <scree/mechanics/linear_prediction.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
-#include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_out.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
+#include <limits>
+#include <numeric>
 
 namespace scree
 {
@@ -37,23 +34,6 @@ lattice_margin(const Parameters<dim> &parameters, const BackgroundGrid<dim> &gri
   return std::max((parameters.contact.shift + 2.) * grid.finest_size(), 2. * coarsest);
 }
 
-template <int dim>
-std::string
-position(const dealii::Point<dim> &point)
-{
-  std::string text;
-  for (unsigned int d = 0; d < dim; ++d)
-    text += (d == 0 ? "(" : ", ") + short_number(point[d]);
-  return text + ")";
-}
-
-std::string
-resident_memory()
-{
-  dealii::Utilities::System::MemoryStats stats;
-  dealii::Utilities::System::get_memory_stats(stats);
-  return short_number(stats.VmRSS / 1024.) + " MB";
-}
 } // namespace
 
 template <int dim>
@@ -120,6 +100,7 @@ Simulation<dim>::set_up()
       = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
   }
 
+  was_closed.assign(contact->points().size(), false);
   linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
   linear_solver->set_near_null_space(equilibrium->rigid_motions());
   linear_solver->set_border(fields->n_trailing());
@@ -146,86 +127,6 @@ Simulation<dim>::find_pairs() const
         pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
     }
   return pairs;
-}
-
-template <int dim>
-void
-Simulation<dim>::report_set_up()
-{
-  if (!parameters.title.empty())
-    log.line(parameters.title);
-  log.line("Grid: " + std::to_string(grid.triangulation().n_global_active_cells())
-           + " cells, finest edge " + short_number(grid.finest_size()));
-  log.line("Unknowns: " + std::to_string(fields->n_dofs()) + " of degree "
-           + std::to_string(parameters.degree) + " in " + std::to_string(fields->n_fields())
-           + " field(s)");
-  const auto volumes = bulk->volumes();
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      if (bodies[b].is_rigid())
-        {
-          log.line("Body " + bodies[b].name + ": rigid"
-                   + (bodies[b].rigid->is_free() ? ", driven by forces" : ", motion prescribed"));
-          continue;
-        }
-      log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
-      require(volumes[b] > 0., bodies[b].path,
-              "the body '" + bodies[b].name + "' has no volume on the grid",
-              "raise Grid/Finest level or check the shape: the body must be wider than a few "
-              "cells of edge "
-                + short_number(grid.finest_size()));
-      double smallest = std::numeric_limits<double>::max();
-      for (unsigned int d = 0; d < dim; ++d)
-        smallest = std::min(smallest, bodies[b].box.side_length(d));
-      if (smallest < 4. * grid.finest_size())
-        log.line("Warning: body " + bodies[b].name + " is only "
-                 + short_number(smallest / grid.finest_size()) + " finest cells wide");
-    }
-  const auto n_points  = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  const auto summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
-    {
-      const auto &pair = contact->pairs()[p];
-      log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
-               + pair.law.name + "')"
-               + (std::isnan(summaries[p].minimum_gap)
-                    ? ", farther apart than twice the shift"
-                    : ", initial gap " + short_number(summaries[p].minimum_gap)));
-      if (summaries[p].minimum_gap < -1e-6 * grid.finest_size())
-        log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
-                 + short_number(summaries[p].max_penetration));
-    }
-  log.line("Contact points: " + std::to_string(n_points));
-  for (const auto &free : equilibrium->free_bodies())
-    log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
-             + " rigid motion(s) that only contact can hold; a vanishing artificial mass helps the "
-               "iteration");
-}
-
-template <int dim>
-void
-Simulation<dim>::check()
-{
-  record = StepRecord();
-  results->write_contact(record, *contact);
-  results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
-  write_regions_csv(boundary_terms->regions(), bodies, communicator, directory);
-  dealii::GridOut().write_mesh_per_processor_as_vtu(grid.triangulation(), directory + "/grid");
-  log.line("The input is fine; nothing was computed. Set-up written to " + directory);
-  plot();
-}
-
-template <int dim>
-void
-Simulation<dim>::plot() const
-{
-  const std::string script = SCREE_PLOT_SCRIPT;
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0
-      || !std::filesystem::exists(script))
-    return;
-  const std::string command = "'" + script + "' '" + directory + "'";
-  if (std::system(command.c_str()) != 0)
-    std::cout << "No pictures: " << command << " failed" << std::endl;
 }
 
 template <int dim>
@@ -268,71 +169,44 @@ Simulation<dim>::run()
 }
 
 template <int dim>
-void
-Simulation<dim>::report_step(const double wall_time)
-{
-  const double done = step_control.time() / parameters.time.end_time;
-  const double left = wall_time * (1. - done) / done;
-  double       open = 0., stick = 0., slip = 0.;
-  for (const auto &summary : summarise_contact(*contact, communicator))
-    {
-      open += summary.open;
-      stick += summary.stick;
-      slip += summary.slip;
-    }
-  log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time) + ": "
-           + std::to_string(record.newton_iterations) + " iterations, residual "
-           + short_number(record.residual) + ", open/stick/slip " + short_number(open) + "/"
-           + short_number(stick) + "/" + short_number(slip) + ", " + short_duration(wall_time)
-           + ", left " + short_duration(left) + ", " + resident_memory());
-  log.progress(done, "left " + short_duration(left));
-}
-
-template <int dim>
-void
-Simulation<dim>::throw_slides_away(const unsigned int body) const
-{
-  std::string contacts;
-  const auto  summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
-    {
-      const ContactPair &pair = contact->pairs()[p];
-      if (pair.a != body && pair.b != body)
-        continue;
-      contacts += (contacts.empty() ? "" : "; ") + pair.name + " slips over "
-                  + short_number(summaries[p].slip) + ", sticks over "
-                  + short_number(summaries[p].stick) + ", is open over "
-                  + short_number(summaries[p].open)
-                  + (pair.law.law == ContactLaw::coulomb
-                       ? " (mu = " + short_number(pair.law.friction_coefficient) + ")"
-                       : "");
-    }
-  throw UserError(bodies[body].path,
-                  "the body '" + bodies[body].name + "' slides away before time "
-                    + short_number(record.time)
-                    + ": neither its supports nor contact resist all of its rigid motions"
-                    + (contacts.empty() ? "" : "; " + contacts),
-                  "support the body, or raise the friction if it should hold");
-}
-
-template <int dim>
 typename Equilibrium<dim>::Vector
 Simulation<dim>::first_guess(const double time)
 {
   using Vector     = typename Equilibrium<dim>::Vector;
   Vector unchanged = state.displacement;
   equilibrium->set_time(time, unchanged);
-  if (last_increment.size() == 0)
-    return unchanged;
-  const auto residual_of = [&](const Vector &u) {
-    Vector r(u);
-    equilibrium->residual(u, state.contact, r);
-    return r.l2_norm();
-  };
-  Vector extrapolated = state.displacement;
-  extrapolated.add(time - state.time, last_increment);
-  equilibrium->set_prescribed(extrapolated);
-  return residual_of(extrapolated) < residual_of(unchanged) ? extrapolated : unchanged;
+  std::vector<Vector> guesses = {unchanged};
+  if (last_increment.size() != 0)
+    {
+      guesses.push_back(state.displacement);
+      guesses.back().add(time - state.time, last_increment);
+      equilibrium->set_prescribed(guesses.back());
+    }
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [](const Body<dim> &body) { return body.is_rigid(); }))
+    try
+      {
+        guesses.push_back(
+          linear_prediction<dim>(*equilibrium, state.contact, state.displacement, unchanged,
+                                 [&](const Vector &b, Vector &x) { solve_linear_system(b, x); }));
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The iteration starts without it.
+      }
+  unsigned int best     = 0;
+  double       smallest = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; guesses.size() > 1 && i < guesses.size(); ++i)
+    {
+      Vector r(unchanged);
+      equilibrium->residual(guesses[i], state.contact, r);
+      if (r.l2_norm() < smallest)
+        {
+          best     = i;
+          smallest = r.l2_norm();
+        }
+    }
+  return guesses[best];
 }
 
 template <int dim>
@@ -370,6 +244,9 @@ Simulation<dim>::solve_step(const double time)
   state.displacement = u;
   state.contact      = contact->current_history();
   state.time         = time;
+  for (unsigned int i = 0; i < was_closed.size(); ++i)
+    if (contact->responses()[i].pressure != 0.)
+      was_closed[i] = true;
   return true;
 }
 
@@ -401,6 +278,36 @@ Simulation<dim>::slides_away(const unsigned int body) const
 }
 
 template <int dim>
+LinearSolveResult
+Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du)
+{
+  const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
+  if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
+      && !equilibrium->has_free_rigid_bodies())
+    try
+      {
+        const Timings::Scope scope(timings, "linear solver");
+        if (!condensed_solver)
+          {
+            const auto system = equilibrium->condensation();
+            condensed_solver
+              = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
+          }
+        return condensed_solver->solve(equilibrium->tangent_changes(), dim, du, r);
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The full system tells what is wrong, if anything is.
+      }
+  const auto *matrix = [&]() {
+    const Timings::Scope scope(timings, "tangent");
+    return &equilibrium->tangent();
+  }();
+  const Timings::Scope scope(timings, "linear solver");
+  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+}
+
+template <int dim>
 NewtonResult
 Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
 {
@@ -411,12 +318,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     equilibrium->residual(u, state.contact, r);
   };
   hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
-    const auto *matrix = [&]() {
-      const Timings::Scope scope(timings, "tangent");
-      return &equilibrium->tangent();
-    }();
-    const Timings::Scope scope(timings, "linear solver");
-    const auto           solved = linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+    const auto solved = solve_linear_system(r, du);
     record.linear_iterations += solved.iterations;
     equilibrium->shorten(du, grid.finest_size());
   };
@@ -446,40 +348,6 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
 
 template <int dim>
 void
-Simulation<dim>::count_flips()
-{
-  const auto &responses = contact->responses();
-  last_status.resize(responses.size(), ContactStatus::open);
-  n_flips.assign(contact->pairs().size(), 0);
-  for (unsigned int i = 0; i < responses.size(); ++i)
-    {
-      n_flips[contact->points()[i].pair] += responses[i].status != last_status[i];
-      last_status[i] = responses[i].status;
-    }
-}
-
-template <int dim>
-void
-Simulation<dim>::explain_failure(const NewtonResult &result)
-{
-  log.line("Step " + std::to_string(record.step) + " to time " + short_number(record.time)
-           + " failed: " + result.message);
-  std::string history = "  residuals:";
-  for (const double residual : result.residuals)
-    history += " " + short_number(residual);
-  log.line(history);
-  const auto summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < summaries.size(); ++p)
-    log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
-             + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
-             + short_number(summaries[p].slip) + ", smallest gap "
-             + short_number(summaries[p].minimum_gap) + " at " + position(summaries[p].where)
-             + ", points that changed their state in the last iteration: "
-             + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
-}
-
-template <int dim>
-void
 Simulation<dim>::write_results()
 {
   const Timings::Scope scope(timings, "output");
@@ -494,6 +362,51 @@ Simulation<dim>::write_results()
     results->write_fields(record, *bulk, ghosted);
   if (is_due(output.contact_every))
     results->write_contact(record, *contact);
+}
+
+template <int dim>
+ErrorEstimate
+Simulation<dim>::estimate_error() const
+{
+  ErrorEstimate result;
+  result.squares       = recovery_errors(*fields, *quadrature, bodies, *bulk,
+                                         equilibrium->with_ghosts(state.displacement));
+  const double squares = dealii::Utilities::MPI::sum(
+    std::accumulate(result.squares.begin(), result.squares.end(), 0.), communicator);
+  const double energy = equilibrium->energies().strain;
+  result.relative     = energy > 0. ? std::sqrt(squares / (2. * energy)) : 0.;
+  return result;
+}
+
+template <int dim>
+std::vector<bool>
+Simulation<dim>::contact_cells() const
+{
+  // The cells around closed points: those that hold the corners of a cell centred at the point.
+  std::vector<std::array<double, dim + 1>> closed;
+  for (unsigned int i = 0; i < was_closed.size(); ++i)
+    if (was_closed[i])
+      {
+        const ContactPoint<dim> &point = contact->points()[i];
+        closed.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          closed.back()[d] = point.position[d];
+        closed.back()[dim] = point.cell_size;
+      }
+  std::vector<bool>  result(grid.n_owned_cells(), false);
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, closed))
+    for (const auto &point : of_rank)
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          dealii::Point<dim> position;
+          for (unsigned int d = 0; d < dim; ++d)
+            position[d] = point[d] + ((corner >> d) & 1u ? 0.5 : -0.5) * point[dim];
+          const auto location = grid.locate(position);
+          if (location.rank == rank)
+            result[location.local_cell] = true;
+        }
+  return result;
 }
 
 template class Simulation<2>;

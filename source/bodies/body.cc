@@ -132,9 +132,9 @@ make_rigid_body(const BodyParameters<dim> &body, const Shape<dim> &shape,
       upper[d] = whole.upper_bound(d) < far ? whole.upper_bound(d) : clipped_box.upper_bound(d);
       size     = std::max(size, upper[d] - lower[d]);
     }
-  const dealii::BoundingBox<dim>      box({lower, upper});
-  const double                        spacing = size / cells_of_picture;
-  typename Lattice<dim>::Index        first, n_nodes;
+  const dealii::BoundingBox<dim> box({lower, upper});
+  const double                   spacing = size / cells_of_picture;
+  typename Lattice<dim>::Index   first, n_nodes;
   for (unsigned int d = 0; d < dim; ++d)
     {
       first[d]   = -1;
@@ -161,16 +161,16 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       const auto &material = materials.at(body.material);
       const bool  is_rigid = material == nullptr;
       check_use(body, is_rigid);
-      const ShapePointer<dim>             shape      = make_shape<dim>(body.shape);
-      const LatticeFrame<dim>            &body_frame = is_rigid ? wide_frame : frame;
-      const dealii::BoundingBox<dim>      box = clipped(shape->bounding_box(), body_frame.box, body);
+      const ShapePointer<dim>        shape      = make_shape<dim>(body.shape);
+      const LatticeFrame<dim>       &body_frame = is_rigid ? wide_frame : frame;
+      const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
-      bodies.push_back(Body<dim>{
-        body.name, body.path, level_set_of(*shape, body_frame, margin, body), box, material,
-        is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
-        Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
+      bodies.push_back(
+        Body<dim>{body.name, body.path, level_set_of(*shape, body_frame, margin, body), box,
+                  material, is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
+                  Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
     }
   return bodies;
 }

@@ -175,15 +175,15 @@ MotionParameters<dim>::declare(ParameterSection &section)
       if (!motion[m].empty() && !load[m].empty())
         section.error(load_key, "both " + motion_key + " and " + load_key + " are given",
                       "give the motion or the load of a component, not both");
-      for (const auto &[key, text] : {std::make_pair(motion_key, motion[m]),
-                                      std::make_pair(load_key, load[m])})
+      for (const auto &[key, text] :
+           {std::make_pair(motion_key, motion[m]), std::make_pair(load_key, load[m])})
         if (!text.empty())
           check_expression<dim>(section, key, text, 1);
     }
 }
 
 template <int dim>
-RigidBody<dim>::RigidBody(const MotionParameters<dim> &parameters,
+RigidBody<dim>::RigidBody(const MotionParameters<dim>    &parameters,
                           const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture)
     : reference_point(box.center())
     , radius(0.)
@@ -278,8 +278,8 @@ RigidPose<dim>::generalised_force(const Load &load) const
   const Tensor2 S = in_3d(load.couple);
   Unknowns      result;
   for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-    result[m] = m < dim ? load.force[m]
-                        : scalar_product(transpose(dR[rotation_axis<dim>(m)]), S) / radius;
+    result[m]
+      = m < dim ? load.force[m] : scalar_product(transpose(dR[rotation_axis<dim>(m)]), S) / radius;
   return result;
 }
 
@@ -291,10 +291,10 @@ RigidPose<dim>::curvature(const Load &load) const
   const Tensor2 S = in_3d(load.couple), symmetric = S + transpose(S);
   const Tensor1 w = axial(S), m = symmetric * theta;
   const double  trace_S = trace(S), theta_w = theta * w, theta_S = 0.5 * (theta * m);
-  const double  first   = dc[0] * trace_S + dc[1] * theta_w + dc[2] * theta_S;
-  const double  second  = ddc[0] * trace_S + ddc[1] * theta_w + ddc[2] * theta_S;
-  const Tensor1 mixed   = 2. * (dc[1] * w + dc[2] * m);
-  Tensor2       result  = 2. * first * dealii::unit_symmetric_tensor<3>();
+  const double  first  = dc[0] * trace_S + dc[1] * theta_w + dc[2] * theta_S;
+  const double  second = ddc[0] * trace_S + ddc[1] * theta_w + ddc[2] * theta_S;
+  const Tensor1 mixed  = 2. * (dc[1] * w + dc[2] * m);
+  Tensor2       result = 2. * first * dealii::unit_symmetric_tensor<3>();
   result += 4. * second * outer_product(theta, theta);
   result += outer_product(theta, mixed) + outer_product(mixed, theta) + c[2] * symmetric;
   return result / (radius * radius);
@@ -312,8 +312,7 @@ Tensor1
 RigidPose<dim>::generalised_moment(const Tensor1 &moment) const
 {
   // J = c_1 I + c_2 [theta] + c_3 theta theta^T, dR = [J dtheta] R
-  return (c[1] * moment - c[2] * cross_product_3d(theta, moment)
-          + c[3] * (theta * moment) * theta)
+  return (c[1] * moment - c[2] * cross_product_3d(theta, moment) + c[3] * (theta * moment) * theta)
          / radius;
 }
 
@@ -330,10 +329,10 @@ RigidPose<dim>::generalised_moment_derivative(const Tensor1 &moment) const
   return result / (radius * radius);
 }
 
-#define SCREE_INSTANTIATE(dim)                                     \
+#define SCREE_INSTANTIATE(dim)                                    \
   template std::vector<std::string> rigid_component_names<dim>(); \
-  template struct MotionParameters<dim>;                           \
-  template class RigidBody<dim>;                                   \
+  template struct MotionParameters<dim>;                          \
+  template class RigidBody<dim>;                                  \
   template class RigidPose<dim>;
 
 SCREE_INSTANTIATE(2)

@@ -330,8 +330,9 @@ ContactPoints<dim>::add_to_residual(Vector &residual) const
 template <int dim>
 void
 ContactPoints<dim>::add_rigid_couplings(const Group &group, const unsigned int point,
-                                        const double               *weight,
-                                        dealii::FullMatrix<double> &block) const
+                                        const double                 *weight,
+                                        const dealii::Tensor<2, dim> &stiffness,
+                                        dealii::FullMatrix<double>   &block) const
 {
   // The columns d[[u]]/dq of the rigid sides.
   std::vector<dealii::Tensor<1, dim>> columns;
@@ -342,8 +343,6 @@ ContactPoints<dim>::add_rigid_couplings(const Group &group, const unsigned int p
       for (const unsigned int m : partner.free_components)
         columns.push_back(side.sign * derivative[m]);
     }
-  const dealii::Tensor<2, dim> stiffness
-    = contact_points[point].weight * contact_responses[point].tangent;
   const unsigned int first = group.n_nodes * dim;
   for (unsigned int m = 0; m < columns.size(); ++m)
     {
@@ -361,34 +360,45 @@ ContactPoints<dim>::add_rigid_couplings(const Group &group, const unsigned int p
 
 template <int dim>
 void
-ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+ContactPoints<dim>::add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,
+                                  dealii::TrilinosWrappers::SparseMatrix    &matrix) const
 {
   dealii::FullMatrix<double> block;
   for (const Group &group : groups)
     {
       const std::vector<DofIndex> indices = unknowns(group);
       block.reinit(indices.size(), indices.size());
-      bool          is_closed = false;
-      const double *weight    = stencil_weights.data() + group.first_weight;
+      bool          is_stiff = false;
+      const double *weight   = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
-          if (contact_responses[p].status == ContactStatus::open)
+          const dealii::Tensor<2, dim> &D = stiffness[p];
+          if (D.norm_square() == 0.)
             continue;
-          is_closed = true;
-          const dealii::Tensor<2, dim> stiffness
-            = contact_points[p].weight * contact_responses[p].tangent;
+          is_stiff = true;
           for (unsigned int i = 0; i < group.n_nodes; ++i)
             for (unsigned int j = 0; j < group.n_nodes; ++j)
               for (unsigned int d = 0; d < dim; ++d)
                 for (unsigned int e = 0; e < dim; ++e)
-                  block(i * dim + d, j * dim + e) += weight[i] * weight[j] * stiffness[d][e];
+                  block(i * dim + d, j * dim + e) += weight[i] * weight[j] * D[d][e];
           if (indices.size() > group.n_nodes * dim)
-            add_rigid_couplings(group, p, weight, block);
+            add_rigid_couplings(group, p, weight, D, block);
         }
-      if (is_closed)
+      if (is_stiff)
         matrix.add(indices, block);
     }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  std::vector<dealii::Tensor<2, dim>> stiffness(contact_points.size());
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    if (contact_responses[p].status != ContactStatus::open)
+      stiffness[p] = contact_points[p].weight * contact_responses[p].tangent;
+  add_to_matrix(stiffness, matrix);
   // -f . d2u/dq2
   for (const RigidPartner &partner : rigid_partners)
     {
@@ -399,6 +409,67 @@ ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
             matrix.add(partner.first_unknown + m, partner.first_unknown + n,
                        -curvature[rotation_axis<dim>(m)][rotation_axis<dim>(n)]);
     }
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+ContactPoints<dim>::glued_tangent(const unsigned int point) const
+{
+  const auto &n      = contact_points[point].normal;
+  const auto  normal = dealii::outer_product(n, n);
+  return contact_points[point].weight
+         * (eps_n(point) * normal + eps_t(point) * (dealii::unit_symmetric_tensor<dim>() - normal));
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  std::vector<dealii::Tensor<2, dim>> stiffness;
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    stiffness.push_back(glued_tangent(p));
+  add_to_matrix(stiffness, matrix);
+}
+
+template <int dim>
+std::vector<double>
+ContactPoints<dim>::tangent_changes() const
+{
+  constexpr double    negligible = 1e-14;
+  std::vector<double> changes;
+  changes.reserve(contact_points.size() * dim * dim);
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    {
+      const dealii::Tensor<2, dim> glued  = glued_tangent(p);
+      dealii::Tensor<2, dim>       change = -glued;
+      if (contact_responses[p].status != ContactStatus::open)
+        change += contact_points[p].weight * contact_responses[p].tangent;
+      if (change.norm() <= negligible * glued.norm())
+        change = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          changes.push_back(change[d][e]);
+    }
+  return changes;
+}
+
+template <int dim>
+SparseRows
+ContactPoints<dim>::jump_rows() const
+{
+  SparseRows rows;
+  for (const Group &group : groups)
+    for (unsigned int p = 0; p < group.n_points; ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          for (unsigned int i = 0; i < group.n_nodes; ++i)
+            {
+              rows.columns.push_back(group_nodes[group.first_node + i] + d);
+              rows.values.push_back(stencil_weights[group.first_weight + p * group.n_nodes + i]);
+            }
+          rows.begin.push_back(rows.columns.size());
+        }
+  return rows;
 }
 
 template <int dim>

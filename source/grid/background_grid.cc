@@ -104,6 +104,18 @@ GridParameters<dim>::declare(ParameterSection &section)
 }
 
 template <int dim>
+GridParameters<dim>
+GridParameters<dim>::with(const std::shared_ptr<const WantedLevels> &levels) const
+{
+  GridParameters result = *this;
+  result.refinement     = GridRefinement::contact;
+  result.finest_level   = levels->finest_level;
+  result.coarsest_level = levels->coarsest_level;
+  result.wanted_levels  = levels;
+  return result;
+}
+
+template <int dim>
 BackgroundGrid<dim>::BackgroundGrid(const GridParameters<dim> &parameters,
                                     const MPI_Comm             communicator)
     : parameters(parameters)
@@ -122,7 +134,9 @@ void
 BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                             &bodies,
                             const std::vector<std::pair<unsigned int, unsigned int>> &pairs)
 {
-  if (parameters.refinement == GridRefinement::uniform)
+  if (parameters.wanted_levels)
+    refine_by(*parameters.wanted_levels);
+  if (parameters.wanted_levels || parameters.refinement == GridRefinement::uniform)
     return;
   const double                     h = finest_size();
   std::unique_ptr<Expression<dim>> limit;
@@ -166,6 +180,65 @@ BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                        
       tria.execute_coarsening_and_refinement();
     }
   list_cells();
+}
+
+template <int dim>
+void
+BackgroundGrid<dim>::refine_by(const WantedLevels &wanted)
+{
+  const auto &leaves = wanted.cells;
+  // Whether an older cell inside or around this one wants to be finer than it.
+  const auto wants_more = [&](const std::uint64_t begin, const unsigned int level) {
+    const std::uint64_t end  = begin + (std::uint64_t(1) << (dim * (wanted.finest_level - level)));
+    auto                leaf = std::upper_bound(
+                                 leaves.begin(), leaves.end(), begin,
+                                 [](const std::uint64_t key, const auto &entry) { return key < entry.first; })
+                - 1;
+    for (; leaf != leaves.end() && leaf->first < end; ++leaf)
+      if (leaf->second > level)
+        return true;
+    return false;
+  };
+  for (unsigned int level = wanted.coarsest_level; level < wanted.finest_level; ++level)
+    {
+      for (const auto &cell : tria.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->level() == int(level))
+          {
+            dealii::Point<dim> inner = cell->vertex(0);
+            for (unsigned int d = 0; d < dim; ++d)
+              inner[d] += 0.5 * finest_size();
+            if (wants_more(key_of(inner), level))
+              cell->set_refine_flag();
+          }
+      tria.execute_coarsening_and_refinement();
+    }
+  list_cells();
+}
+
+template <int dim>
+WantedLevels
+BackgroundGrid<dim>::wanted_levels(const std::vector<unsigned int> &levels) const
+{
+  AssertDimension(levels.size(), n_owned);
+  std::vector<std::pair<std::uint64_t, unsigned int>> owned;
+  for (unsigned int c = 0; c < n_owned; ++c)
+    owned.emplace_back(local_cells[c].key, levels[c]);
+  WantedLevels result;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator(), owned))
+    result.cells.insert(result.cells.end(), of_rank.begin(), of_rank.end());
+  std::sort(result.cells.begin(), result.cells.end());
+  result.coarsest_level = parameters.finest_level;
+  for (const auto &[key, level] : result.cells)
+    {
+      result.finest_level   = std::max(result.finest_level, level);
+      result.coarsest_level = std::min(result.coarsest_level, level);
+    }
+  // Keys count in cells of the finest level of either grid.
+  for (auto &[key, level] : result.cells)
+    key = result.finest_level >= parameters.finest_level
+            ? key << (dim * (result.finest_level - parameters.finest_level))
+            : key >> (dim * (parameters.finest_level - result.finest_level));
+  return result;
 }
 
 template <int dim>

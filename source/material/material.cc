@@ -48,9 +48,8 @@ problems_of(const MaterialParameters &parameters)
   std::vector<Problem> problems;
   if (parameters.is_rigid())
     {
-      for (const auto &[key, value] :
-           {std::make_pair("Young's modulus", parameters.young),
-            std::make_pair("Poisson's ratio", parameters.poisson)})
+      for (const auto &[key, value] : {std::make_pair("Young's modulus", parameters.young),
+                                       std::make_pair("Poisson's ratio", parameters.poisson)})
         if (!std::isnan(value))
           problems.push_back({key, "a rigid material has none", "remove the line"});
       return problems;

@@ -29,6 +29,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , contact(contact)
     , supports(fields, bodies)
     , rigid(fields, bodies, contact)
+    , free(fields, bodies, supports, boundary_terms, contact)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
@@ -40,7 +41,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(region.points.size());
   accepted_displacements = accepted_tractions;
-  find_free_bodies();
+  set_up_artificial_mass();
 }
 
 template <int dim>
@@ -83,55 +84,20 @@ Equilibrium<dim>::set_up_matrices()
 }
 
 template <int dim>
-dealii::FullMatrix<double>
-Equilibrium<dim>::resistance_of_supports(const unsigned int       body,
-                                         const RigidMotions<dim> &motions) const
-{
-  dealii::FullMatrix<double> held = motions.no_resistance();
-  if (bodies[body].is_rigid())
-    for (unsigned int m = 0; m < motions.n_motions; ++m)
-      if (!bodies[body].rigid->is_free(m))
-        motions.add_motion_resistance(m, held);
-  for (const auto &unknown : supports.unknowns())
-    if (supports.conditions()[unknown.support].first == body)
-      motions.add_resistance(unknown.position, unknown.component, 1., held);
-  for (const auto &region : boundary_terms.regions())
-    {
-      const ConditionType type = region.condition->parameters.type;
-      if (region.body != body || type == ConditionType::traction || type == ConditionType::pressure)
-        continue;
-      for (const auto &point : region.points)
-        for (const unsigned int component : region.condition->components)
-          {
-            if (component < dim)
-              motions.add_resistance(point.position, component, 1., held);
-            else
-              motions.add_motion_resistance(motions.n_motions - 1, held);
-          }
-    }
-  return held;
-}
-
-template <int dim>
 void
-Equilibrium<dim>::find_free_bodies()
+Equilibrium<dim>::set_up_artificial_mass()
 {
   std::vector<double> factors(bodies.size(), 0.);
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      const RigidMotions<dim>    motions(bodies[b]);
-      dealii::FullMatrix<double> held   = resistance_of_supports(b, motions);
-      const unsigned int         n_free = motions.n_free(held, fields.grid.communicator());
-      if (n_free == 0)
-        continue;
-      free_motions.push_back({b, n_free});
-      if (!bodies[b].is_rigid())
-        factors[b] = artificial_mass_factor * bodies[b].material->young()
-                     / (motions.length() * motions.length());
-    }
+  for (const FreeMotion &free : free_bodies())
+    if (!bodies[free.body].is_rigid())
+      {
+        const double length = RigidMotions<dim>(bodies[free.body]).length();
+        factors[free.body]
+          = artificial_mass_factor * bodies[free.body].material->young() / (length * length);
+      }
   bulk.add_lumped_volumes(artificial_mass, factors);
   artificial_mass.compress(dealii::VectorOperation::add);
-  for (const FreeMotion &free : free_motions)
+  for (const FreeMotion &free : free_bodies())
     if (bodies[free.body].is_rigid())
       {
         const double mass = artificial_mass_factor * rigid.stiffness_scale(free.body);
@@ -139,6 +105,9 @@ Equilibrium<dim>::find_free_bodies()
           if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
             artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
       }
+  // Rows without any other entry.
+  for (const DofIndex index : rigid.prescribed())
+    artificial_mass(index) = largest_stiffness;
   artificial_mass.compress(dealii::VectorOperation::insert);
 }
 
@@ -177,12 +146,19 @@ Equilibrium<dim>::set_zero_on_prescribed(Vector &r) const
 }
 
 template <int dim>
+bool
+Equilibrium<dim>::has_free_rigid_bodies() const
+{
+  return std::any_of(free_bodies().begin(), free_bodies().end(),
+                     [&](const FreeMotion &motion) { return bodies[motion.body].is_rigid(); });
+}
+
+template <int dim>
 void
 Equilibrium<dim>::shorten(Vector &du, const double length) const
 {
   double largest = 0.;
-  if (std::any_of(free_motions.begin(), free_motions.end(),
-                  [&](const FreeMotion &free) { return bodies[free.body].is_rigid(); }))
+  if (has_free_rigid_bodies())
     for (const unsigned int body : bodies_not_held())
       if (bodies[body].is_rigid())
         for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
@@ -223,15 +199,43 @@ Equilibrium<dim>::tangent()
   newton_matrix.copy_from(stiffness);
   contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
-  for (const DofIndex index : rigid.prescribed())
-    newton_matrix.add(index, index, largest_stiffness);
-  if (!free_motions.empty())
-    for (const DofIndex index : fields.owned())
-      if (artificial_mass(index) != 0.)
-        newton_matrix.add(index, index, artificial_mass(index));
+  add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);
   return newton_matrix;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Condensation
+Equilibrium<dim>::condensation()
+{
+  newton_matrix.copy_from(stiffness);
+  contact.add_glued_to_matrix(newton_matrix);
+  add_artificial_mass(newton_matrix);
+  newton_matrix.compress(dealii::VectorOperation::add);
+  eliminate_prescribed(newton_matrix);
+
+  // Prescribed unknowns may belong to any process: a ghosted vector tells them.
+  Vector is_prescribed(fields.owned(), fields.grid.communicator());
+  for (const auto &unknown : supports.unknowns())
+    is_prescribed(unknown.index) = 1.;
+  is_prescribed.compress(dealii::VectorOperation::insert);
+  Vector with_ghosts(ghosted);
+  with_ghosts     = is_prescribed;
+  SparseRows rows = contact.jump_rows();
+  for (std::size_t i = 0; i < rows.columns.size(); ++i)
+    if (with_ghosts(rows.columns[i]) != 0.)
+      rows.values[i] = 0.;
+  return {newton_matrix, rows, boundary_terms.is_symmetric()};
+}
+
+template <int dim>
+void
+Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
+{
+  for (const DofIndex index : fields.owned())
+    if (artificial_mass(index) != 0.)
+      matrix.add(index, index, artificial_mass(index));
 }
 
 template <int dim>
@@ -289,8 +293,7 @@ Equilibrium<dim>::force_scale() const
 {
   Vector all(internal_forces);
   reactions(all);
-  double squares
-    = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr();
+  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr();
   double held    = 0.;
   for (const auto &unknown : supports.unknowns())
     held += all(unknown.index) * all(unknown.index);
@@ -317,32 +320,6 @@ Equilibrium<dim>::rigid_motions() const
   std::vector<Vector> result = near_null_space(fields, bodies);
   for (Vector &motion : result)
     supports.set_zero(motion);
-  return result;
-}
-
-template <int dim>
-std::vector<unsigned int>
-Equilibrium<dim>::bodies_not_held() const
-{
-  std::vector<unsigned int> result;
-  for (const FreeMotion &free : free_motions)
-    {
-      const RigidMotions<dim> motions(bodies[free.body]);
-      auto                    held = resistance_of_supports(free.body, motions);
-      for (unsigned int i = 0; i < contact.points().size(); ++i)
-        {
-          const auto &point = contact.points()[i];
-          const auto &pair  = contact.pairs()[point.pair];
-          if ((pair.a != free.body && pair.b != free.body) || contact.responses()[i].pressure == 0.)
-            continue;
-          motions.add_resistance(point.position, point.normal, 1., held);
-          if (contact.responses()[i].status == ContactStatus::stick)
-            for (unsigned int d = 0; d < dim; ++d)
-              motions.add_resistance(point.position, d, 1., held);
-        }
-      if (motions.n_free(held, fields.grid.communicator()) > 0)
-        result.push_back(free.body);
-    }
   return result;
 }
 

@@ -5,11 +5,10 @@ namespace scree
 template <int dim>
 typename Equilibrium<dim>::Vector
 linear_prediction(Equilibrium<dim> &equilibrium, const ContactHistory<dim> &history,
-                  const typename Equilibrium<dim>::Vector &old_u,
-                  const typename Equilibrium<dim>::Vector &u,
-                  const std::function<void(const typename Equilibrium<dim>::Matrix &K,
-                                           typename Equilibrium<dim>::Vector       &x,
-                                           const typename Equilibrium<dim>::Vector &b)> &solve)
+                  const typename Equilibrium<dim>::Vector                         &old_u,
+                  const typename Equilibrium<dim>::Vector                         &u,
+                  const std::function<void(const typename Equilibrium<dim>::Vector &b,
+                                           typename Equilibrium<dim>::Vector       &x)> &solve)
 {
   using Vector          = typename Equilibrium<dim>::Vector;
   constexpr double step = 1e-6;
@@ -21,17 +20,16 @@ linear_prediction(Equilibrium<dim> &equilibrium, const ContactHistory<dim> &hist
   right -= r;
   right *= 1. / step;
   right += r;
-  solve(equilibrium.tangent(), du, right);
+  solve(right, du);
   du += u;
   return du;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                               \
-  template typename Equilibrium<dim>::Vector linear_prediction(                              \
-    Equilibrium<dim> &, const ContactHistory<dim> &, const Equilibrium<dim>::Vector &,       \
-    const Equilibrium<dim>::Vector &,                                                        \
-    const std::function<void(const Equilibrium<dim>::Matrix &, Equilibrium<dim>::Vector &,   \
-                             const Equilibrium<dim>::Vector &)> &);
+#define SCREE_INSTANTIATE(dim)                                                         \
+  template typename Equilibrium<dim>::Vector linear_prediction(                        \
+    Equilibrium<dim> &, const ContactHistory<dim> &, const Equilibrium<dim>::Vector &, \
+    const Equilibrium<dim>::Vector &,                                                  \
+    const std::function<void(const Equilibrium<dim>::Vector &, Equilibrium<dim>::Vector &)> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

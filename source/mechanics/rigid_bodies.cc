@@ -74,8 +74,8 @@ RigidBodies<dim>::applied(const Vector &u, const double time, Vector &forces) co
 {
   for (const unsigned int b : rigid_bodies)
     {
-      const RigidBody<dim> &rigid = *bodies[b].rigid;
-      const auto moment           = pose(b, u).generalised_moment(applied_moment(b, time));
+      const RigidBody<dim> &rigid  = *bodies[b].rigid;
+      const auto            moment = pose(b, u).generalised_moment(applied_moment(b, time));
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         {
           const DofIndex unknown = fields.rigid_unknown(b) + m;
@@ -161,11 +161,12 @@ RigidBodies<dim>::states(const Vector &u) const
   std::vector<RigidBodyState<dim>> result;
   for (const unsigned int b : rigid_bodies)
     {
-      auto load   = contact.rigid_load(b);
-      load.force  = dealii::Utilities::MPI::sum(load.force, communicator);
-      load.couple = dealii::Utilities::MPI::sum(load.couple, communicator);
+      auto load                  = contact.rigid_load(b);
+      load.force                 = dealii::Utilities::MPI::sum(load.force, communicator);
+      load.couple                = dealii::Utilities::MPI::sum(load.couple, communicator);
       const RigidPose<dim> where = pose(b, u);
-      result.push_back({b, where.translation(), where.rotation(), -load.force, -where.moment(load)});
+      result.push_back(
+        {b, where.translation(), where.rotation(), -load.force, -where.moment(load)});
     }
   return result;
 }

@@ -155,9 +155,8 @@ make_patch(const std::vector<dealii::Point<dim>> &vertices, const unsigned int b
            const Sample &sample)
 {
   dealii::DataOutBase::Patch<dim, dim> patch;
-  patch.reference_cell = vertices.size() == dim + 1
-                           ? dealii::ReferenceCells::get_simplex<dim>()
-                           : dealii::ReferenceCells::get_hypercube<dim>();
+  patch.reference_cell = vertices.size() == dim + 1 ? dealii::ReferenceCells::get_simplex<dim>()
+                                                    : dealii::ReferenceCells::get_hypercube<dim>();
   patch.n_subdivisions = 1;
   patch.data.reinit(field_names<dim>().size(), vertices.size());
   for (unsigned int v = 0; v < vertices.size(); ++v)

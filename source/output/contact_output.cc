@@ -15,25 +15,6 @@ namespace scree
 {
 namespace
 {
-/** Names and values of the columns of a contact point. */
-template <int dim>
-std::vector<std::string>
-column_names()
-{
-  std::vector<std::string>       names = {"pair"};
-  const std::vector<std::string> axes  = {"x", "y", "z"};
-  for (const std::string prefix : {"", "normal_"})
-    for (unsigned int d = 0; d < dim; ++d)
-      names.push_back(prefix + axes[d]);
-  for (const std::string name : {"weight", "gap", "pressure"})
-    names.push_back(name);
-  for (const std::string prefix : {"tau_", "jump_"})
-    for (unsigned int d = 0; d < dim; ++d)
-      names.push_back(prefix + axes[d]);
-  names.push_back("status");
-  return names;
-}
-
 /** Status for output: a point without pressure is open. */
 template <int dim>
 ContactStatus
@@ -65,6 +46,34 @@ columns(const ContactPoints<dim> &contact, const unsigned int i)
   return values;
 }
 } // namespace
+
+template <int dim>
+std::vector<std::string>
+contact_columns()
+{
+  std::vector<std::string>       names = {"pair"};
+  const std::vector<std::string> axes  = {"x", "y", "z"};
+  for (const std::string prefix : {"", "normal_"})
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(prefix + axes[d]);
+  for (const std::string name : {"weight", "gap", "pressure"})
+    names.push_back(name);
+  for (const std::string prefix : {"tau_", "jump_"})
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(prefix + axes[d]);
+  names.push_back("status");
+  return names;
+}
+
+template <int dim>
+std::vector<std::vector<double>>
+contact_rows(const ContactPoints<dim> &contact)
+{
+  std::vector<std::vector<double>> rows;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    rows.push_back(columns(contact, i));
+  return rows;
+}
 
 template <int dim>
 std::vector<ContactSummary<dim>>
@@ -124,20 +133,17 @@ void
 write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                   const std::string &directory, const unsigned int number)
 {
-  std::vector<std::vector<double>> rows;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    rows.push_back(columns(contact, i));
-  const auto gathered = dealii::Utilities::MPI::gather(communicator, rows);
+  const auto gathered = dealii::Utilities::MPI::gather(communicator, contact_rows(contact));
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
     return;
-  rows.clear();
+  std::vector<std::vector<double>> rows;
   for (const auto &of_process : gathered)
     rows.insert(rows.end(), of_process.begin(), of_process.end());
   std::sort(rows.begin(), rows.end());
   std::ofstream file(directory + "/contact_" + dealii::Utilities::int_to_string(number, 4)
                      + ".csv");
   file << std::setprecision(12);
-  const auto names = column_names<dim>();
+  const auto names = contact_columns<dim>();
   for (unsigned int c = 0; c < names.size(); ++c)
     file << (c == 0 ? "" : ",") << names[c];
   file << '\n';
@@ -191,7 +197,7 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
                   const std::string &directory, const unsigned int number)
 {
   PointPatches<dim> output;
-  output.names = column_names<dim>();
+  output.names = contact_columns<dim>();
   // Position comes with the vertex.
   output.names.erase(output.names.begin() + 1, output.names.begin() + 1 + dim);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
@@ -227,6 +233,8 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template struct ContactSummary<dim>;                                                             \
+  template std::vector<std::string>         contact_columns<dim>();                                \
+  template std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &);              \
   template std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &,          \
                                                               const MPI_Comm);                     \
   template void write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \

@@ -60,8 +60,9 @@ Results<dim>::Results(const std::string &directory, const Fields<dim> &fields,
 }
 
 template <int dim>
-void
-Results<dim>::open_history(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact)
+std::vector<std::string>
+Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
+                              const ContactPoints<dim> &contact) const
 {
   std::vector<std::string> names
     = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
@@ -82,7 +83,38 @@ Results<dim>::open_history(const Equilibrium<dim> &equilibrium, const ContactPoi
   for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
                                    "external_work", "balance_error"})
     names.push_back("energy." + energy);
-  history = std::make_unique<CsvTable>(directory + "/history.csv", names);
+  return names;
+}
+
+template <int dim>
+std::vector<std::string>
+Results<dim>::probe_columns() const
+{
+  std::vector<std::string> names;
+  for (const auto &probe : probes)
+    if (probe.n_points == 1)
+      for (const std::string &column : sample_columns<dim>())
+        names.push_back(probe.name + "." + column);
+  return names;
+}
+
+template <int dim>
+std::vector<std::string>
+Results<dim>::columns(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
+{
+  std::vector<std::string>       names     = history_columns(equilibrium, contact);
+  const std::vector<std::string> of_probes = probe_columns();
+  names.insert(names.end(), of_probes.begin(), of_probes.end());
+  return names;
+}
+
+template <int dim>
+std::vector<double>
+Results<dim>::last_values() const
+{
+  std::vector<double> values = history_row;
+  values.insert(values.end(), probe_row.begin(), probe_row.end());
+  return values;
 }
 
 template <int dim>
@@ -92,9 +124,11 @@ Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &eq
                             const Vector &u)
 {
   if (is_first && !history)
-    open_history(equilibrium, contact);
-  std::vector<double> values = {record.time, double(record.step), double(record.newton_iterations),
-                                double(record.attempts), double(record.linear_iterations)};
+    history = std::make_unique<CsvTable>(directory + "/history.csv",
+                                         history_columns(equilibrium, contact));
+  std::vector<double> &values = history_row;
+  values                      = {record.time, double(record.step), double(record.newton_iterations),
+                                 double(record.attempts), double(record.linear_iterations)};
   for (const auto &summary : summarise_contact(contact, fields.grid.communicator()))
     {
       add_resultant<dim>(summary.force, summary.moment, values);
@@ -166,20 +200,23 @@ template <int dim>
 void
 Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
-  std::vector<std::string> names  = {"time"};
-  std::vector<double>      values = {record.time};
+  probe_row.clear();
   for (const auto &probe : probes)
     if (probe.n_points == 1)
       {
         const auto row = sample_probe(probe, bulk, ghosted_u).front();
-        values.insert(values.end(), row.begin(), row.end());
-        for (const std::string &column : sample_columns<dim>())
-          names.push_back(probe.name + "." + column);
+        probe_row.insert(probe_row.end(), row.begin(), row.end());
       }
-  if (!is_first || names.size() == 1)
+  if (!is_first || probe_row.empty())
     return;
   if (!probe_table)
-    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", names);
+    {
+      std::vector<std::string> names = probe_columns();
+      names.insert(names.begin(), "time");
+      probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", names);
+    }
+  std::vector<double> values = probe_row;
+  values.insert(values.begin(), record.time);
   probe_table->add_row(values);
 }
 

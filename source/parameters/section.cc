@@ -214,6 +214,15 @@ ParameterSection::is_set(const std::string &key) const
          && (entry->order == 0 ? !entry->text.empty() : entry->value != entry->default_value);
 }
 
+std::string
+ParameterSection::file_of(const std::string &key) const
+{
+  const ParameterEntry *entry = node->find_entry(key);
+  return entry == nullptr || !entry->is_set || entry->position.file == "--set"
+           ? ""
+           : entry->position.file;
+}
+
 bool
 ParameterSection::is_documentation() const
 {

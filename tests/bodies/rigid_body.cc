@@ -41,7 +41,7 @@ template <int dim>
 Unknowns<dim>
 unknowns(const double angle)
 {
-  Unknowns<dim>    q{};
+  Unknowns<dim>      q{};
   const Tensor<1, 3> axis = Point<3>(0.48, -0.6, 0.64);
   for (unsigned int m = 0; m < q.size(); ++m)
     q[m] = m < dim ? 0.1 * (m + 1) : 2.5 * angle * (dim == 2 ? 1. : axis[m - dim]);
@@ -121,8 +121,8 @@ TEST(RigidPose, TurnsAboutTheReferencePoint)
   const RigidPose<2> pose(body, {1., 2., body.radius * angle});
   EXPECT_LE((pose.displacement(body.reference_point) - Tensor<1, 2>({1., 2.})).norm(), 1e-15);
   const Point<2> X = body.reference_point + Point<2>(1., 0.);
-  EXPECT_LE(
-    (pose.displacement(X) - Tensor<1, 2>({std::cos(angle), 2. + std::sin(angle)})).norm(), 1e-14);
+  EXPECT_LE((pose.displacement(X) - Tensor<1, 2>({std::cos(angle), 2. + std::sin(angle)})).norm(),
+            1e-14);
 }
 
 TEST(RigidPose, KeepsLengthsIn3D)
@@ -178,8 +178,8 @@ message(const std::string &material, const std::string &lines)
 
 TEST(RigidBody, ReadsItsMotion)
 {
-  const auto body = make("hard", "subsection Motion\nset Force y = -2*t\nset Rotation = 0.5*t\nend")
-                      .front();
+  const auto body
+    = make("hard", "subsection Motion\nset Force y = -2*t\nset Rotation = 0.5*t\nend").front();
   ASSERT_TRUE(body.is_rigid());
   const RigidBody<2> &rigid = *body.rigid;
   EXPECT_NEAR(rigid.reference_point.norm(), 0., 1e-14); // of the whole disc, not of the clipped one

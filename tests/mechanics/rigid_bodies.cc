@@ -62,8 +62,7 @@ compare_tangent(const std::string &text, const double size, const double angle, 
 {
   EquilibriumModel<dim> model(text);
   auto                 &equilibrium = model.equilibrium;
-  Vector                u           = random_state(model, size, angle, 2), r(u), plus(u), minus(u),
-         product(u);
+  Vector u = random_state(model, size, angle, 2), r(u), plus(u), minus(u), product(u);
   equilibrium.set_time(1., u);
   equilibrium.residual(random_state(model, size, 0.9 * angle, 1), model.state.contact, r);
   const ContactHistory<dim> history = model.contact.current_history();
@@ -106,9 +105,10 @@ block_and_rigid_ball(const std::string &law)
          + bodies_text(
            {{"block", half_space_text("0, 0, 0.013", "0.05, 0.1, 1")
                         + conditions_text({{"base", "set On = z-"}})},
-            {"ball", ball_text("0, 0, 1.1", 1.2)
-                       + motion_text("set Force x = 3\nset Force y = 2\nset Force z = -20\n"
-                                     "set Moment x = 500\nset Moment y = 200\nset Moment z = -300")}})
+            {"ball",
+             ball_text("0, 0, 1.1", 1.2)
+               + motion_text("set Force x = 3\nset Force y = 2\nset Force z = -20\n"
+                             "set Moment x = 500\nset Moment y = 200\nset Moment z = -300")}})
          + contact_text(law);
 }
 
@@ -153,8 +153,7 @@ cylinder_on_block(const std::string &motion, const std::string &law, const doubl
                 graded_text(0))
       + degree_text(1)
       + bodies_text(
-        {{"block",
-          half_space_text("0, 0", "0, 1") + conditions_text({{"base", "set On = y-"}})},
+        {{"block", half_space_text("0, 0", "0, 1") + conditions_text({{"base", "set On = y-"}})},
          {"cylinder",
           shape_text("disc", "set Centre = 0, " + number(10) + "\nset Radius = " + number(10))
             + motion_text(motion)}})
@@ -177,7 +176,7 @@ compare_controls(const std::string &law)
 {
   EquilibriumModel<2> by_motion(cylinder_on_block(
     "set Displacement x = 0.01*t\nset Displacement y = -0.04*t\nset Rotation = -0.0004*t", law));
-  const auto of_motion = by_motion.step(1.);
+  const auto          of_motion = by_motion.step(1.);
   ASSERT_TRUE(of_motion.converged()) << of_motion.message;
   const auto prescribed = rigid_state(by_motion);
   EXPECT_NEAR(prescribed.displacement[1], -0.04, 1e-15);
@@ -187,7 +186,7 @@ compare_controls(const std::string &law)
     "set Force x = t*" + text_of(prescribed.force[0]) + "\nset Force y = t*"
       + text_of(prescribed.force[1]) + "\nset Moment = t*" + text_of(prescribed.moment[2]),
     law));
-  const auto of_force = by_force.step(1.);
+  const auto          of_force = by_force.step(1.);
   ASSERT_TRUE(of_force.converged()) << of_force.message;
   const auto found = rigid_state(by_force);
   std::cout << "  iterations " << of_motion.iterations << " by motion, " << of_force.iterations
@@ -220,19 +219,19 @@ TEST(ForceControl, IterationsDoNotDependOnUnits)
       std::vector<double>                      angles;
       for (const double length : {1., 1e-3})
         {
-          const std::string factor = text_of(length);
-          EquilibriumModel<2> model(cylinder_on_block(
-            "set Displacement x = 0.01*t*" + factor + "\nset Force y = -10*t*" + factor
-              + "\nset Moment = 0",
-            friction, length, solver_text(1e-10, type)));
-          const auto result = model.step(1.);
+          const std::string   factor = text_of(length);
+          EquilibriumModel<2> model(cylinder_on_block("set Displacement x = 0.01*t*" + factor
+                                                        + "\nset Force y = -10*t*" + factor
+                                                        + "\nset Moment = 0",
+                                                      friction, length, solver_text(1e-10, type)));
+          const auto          result = model.step(1.);
           ASSERT_TRUE(result.converged()) << result.message;
           iterations.push_back({{result.iterations, model.linear_iterations}});
           angles.push_back(rigid_state(model).rotation[2]);
         }
-      std::cout << "  " << type << ": iterations " << iterations[0][0] << ", "
-                << iterations[1][0] << "; of the last system " << iterations[0][1] << ", "
-                << iterations[1][1] << "; rotation " << angles[0] << "\n";
+      std::cout << "  " << type << ": iterations " << iterations[0][0] << ", " << iterations[1][0]
+                << "; of the last system " << iterations[0][1] << ", " << iterations[1][1]
+                << "; rotation " << angles[0] << "\n";
       EXPECT_EQ(iterations[0][0], iterations[1][0]);
       EXPECT_LE(std::abs(int(iterations[0][1]) - int(iterations[1][1])), 1);
       EXPECT_NEAR(angles[0], angles[1], 1e-7 * std::abs(angles[0]));
@@ -254,7 +253,7 @@ TEST(ForceControl, BallIn3D)
 {
   EquilibriumModel<3> by_motion(ball_on_block(
     "set Displacement z = -0.05*t\nset Displacement x = 0.01*t", friction, "iterative"));
-  const auto of_motion = by_motion.step(1.);
+  const auto          of_motion = by_motion.step(1.);
   ASSERT_TRUE(of_motion.converged()) << of_motion.message;
   const auto  prescribed = rigid_state(by_motion);
   std::string forces;
@@ -284,7 +283,7 @@ TEST(FiniteRotation, GluedDiscTurnsARing)
   // A rigid disc of radius a is glued into an elastic ring that is held at radius b. It turns by
   // theta: the elastic field is u_r = A r + B/r, u_t = C r + D/r with the tractions of the glue,
   // eps (jump), at r = a.
-  constexpr double a = 0.5, b = 1., theta = numbers::PI / 6., E = 1000., nu = 0.3;
+  constexpr double    a = 0.5, b = 1., theta = numbers::PI / 6., E = 1000., nu = 0.3;
   EquilibriumModel<2> model(
     grid_text("-1.2, -1.2", "1.2, 1.2", "4, 4", 4) + degree_text(2)
     + bodies_text({{"ring", shape_text("ring", "set Centre = 0, 0\nset Inner radius = 0.5\n"
@@ -294,19 +293,18 @@ TEST(FiniteRotation, GluedDiscTurnsARing)
     + contact_text("set Law = tied") + solver_text(1e-10));
   const auto result = model.step(1.);
   ASSERT_TRUE(result.converged()) << result.message;
-  const auto   found  = rigid_state(model);
-  const double mu     = E / (2. * (1. + nu)), lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
+  const auto   found = rigid_state(model);
+  const double mu = E / (2. * (1. + nu)), lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
   const double eps    = 10. * 2. * E / model.cut.grid.finest_size();
   const double radial = (std::cos(theta) - 1.) * a, tangential = std::sin(theta) * a;
   // u(r) = c (r - b^2/r); u(a) + t(a)/eps = motion of the disc, t the traction on the ring.
-  const double g = a - b * b / a;
+  const double g        = a - b * b / a;
   const double stress_r = 2. * (lambda + mu) + 2. * mu * b * b / (a * a); // per c
   const double stress_t = 2. * mu * b * b / (a * a);                      // per c
   const double c_r = radial / (g - stress_r / eps), c_t = tangential / (g - stress_t / eps);
   // Traction of the ring on the disc (sigma n, n = e_r), at the turned arm a (cos, sin).
   const double t_r = stress_r * c_r, t_t = stress_t * c_t;
-  const double moment
-    = -2. * numbers::PI * a * a * (std::cos(theta) * t_t - std::sin(theta) * t_r);
+  const double moment = -2. * numbers::PI * a * a * (std::cos(theta) * t_t - std::sin(theta) * t_r);
   std::cout << "  moment " << found.moment[2] << ", formula " << moment << "\n";
   EXPECT_NEAR(found.moment[2], moment, 2e-3 * std::abs(moment));
   EXPECT_LE(found.force.norm(), 1e-6 * std::abs(moment));
@@ -316,10 +314,9 @@ TEST(FiniteRotation, GluedDiscTurnsARing)
     {
       const double   angle = 0.3 + q * numbers::PI / 6., r = 0.75;
       const Point<2> point(r * std::cos(angle), r * std::sin(angle));
-      const int      cell = model.cut.fields->nearest_active_cell(point, 0);
-      const auto     sample
-        = model.bulk.sample(cell, model.cut.fields->unit_point(cell, point), u);
-      const double         u_r = c_r * (r - b * b / r), u_t = c_t * (r - b * b / r);
+      const int      cell   = model.cut.fields->nearest_active_cell(point, 0);
+      const auto     sample = model.bulk.sample(cell, model.cut.fields->unit_point(cell, point), u);
+      const double   u_r = c_r * (r - b * b / r), u_t = c_t * (r - b * b / r);
       const Tensor<1, 2> exact({u_r * std::cos(angle) - u_t * std::sin(angle),
                                 u_r * std::sin(angle) + u_t * std::cos(angle)});
       error = std::max(error, (sample.displacement - exact).norm());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/study_parameters.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/grid/background_grid.h>
 #include <scree/output/probes.h>
@@ -41,6 +42,7 @@ struct Parameters
   NewtonParameters                          newton;
   LinearSolverParameters                    linear_solver;
   OutputParameters<dim>                     output;
+  StudyParameters<dim>                      study;
 
   /** Lets every module visit its section; problems are collected in the file. */
   void declare(ParameterFile &file);

@@ -4,6 +4,7 @@
 #include <scree/base/log.h>
 #include <scree/base/timings.h>
 #include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/error_indicator.h>
 #include <scree/output/body_output.h>
 #include <scree/output/results.h>
 
@@ -14,6 +15,13 @@
 
 namespace scree
 {
+/** Estimate of the error of the displacement in the energy norm. */
+struct ErrorEstimate
+{
+  std::vector<double> squares;       //!< eta_K^2 of the owned grid cells [force L]
+  double              relative = 0.; //!< sqrt(sum of eta_K^2 / (2 strain energy))
+};
+
 /**
  * A run: sets the bodies up on their grid, walks through the load steps, writes what happens.
  * The members are the modules, the steps those of method.md section 3.
@@ -35,18 +43,53 @@ public:
   /** Reports what was set up and writes it for pictures; computes nothing. */
   void check();
 
+  /** Of the present state, by stress recovery; collective. */
+  ErrorEstimate estimate_error() const;
+
+  /** Owned grid cells at which bodies were in contact at the end of some load step; collective. */
+  std::vector<bool> contact_cells() const;
+
+  /** Columns of history.csv and probes.csv, and their values after the last step. */
+  std::vector<std::string> columns() const
+  {
+    return results->columns(*equilibrium, *contact);
+  }
+  std::vector<double> last_values() const
+  {
+    return results->last_values();
+  }
+
+  const BackgroundGrid<dim> &background_grid() const
+  {
+    return grid;
+  }
+
+  const ContactPoints<dim> &contact_points() const
+  {
+    return *contact;
+  }
+
+  unsigned int n_unknowns() const
+  {
+    return fields->n_dofs();
+  }
+
 private:
   void                     set_up();
   std::vector<ContactPair> find_pairs() const;
   void                     report_set_up();
-  /** Of the old displacements and their extrapolation in time, the one with the smaller residual.
+  /**
+   * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
+   * prediction, the one with the smallest residual.
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   bool                              solve_step(const double time);
   NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
-  void                              report_step(const double wall_time);
-  [[noreturn]] void                 throw_slides_away(const unsigned int body) const;
-  std::vector<double>               contact_force_on_bodies() const;
+  /** Solves K du = r, condensed to the contact points where that pays. */
+  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du);
+  void                report_step(const double wall_time);
+  [[noreturn]] void   throw_slides_away(const unsigned int body) const;
+  std::vector<double> contact_force_on_bodies() const;
   /** Whether the contact force on a body vanished in the course of the Newton iterations. */
   bool lost_contact(const unsigned int body) const;
   /** Whether neither supports nor contact resist all motions of a body, or it lost its contact. */
@@ -74,6 +117,7 @@ private:
   std::unique_ptr<BoundaryTerms<dim>> boundary_terms;
   std::unique_ptr<Equilibrium<dim>>   equilibrium;
   std::unique_ptr<LinearSolver>       linear_solver;
+  std::unique_ptr<CondensedSolver>    condensed_solver; //!< made when first needed
   std::unique_ptr<Results<dim>>       results;
   StepControl                         step_control;
   State<dim>                          state;
@@ -81,6 +125,7 @@ private:
   typename Equilibrium<dim>::Vector   last_increment; //!< of the last step, per time
   std::vector<double> largest_contact_force;          //!< on each body in this step's iterations
   std::set<std::pair<unsigned int, unsigned int>> warned_pairs; //!< told once
+  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
   std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
   std::vector<unsigned int>  n_flips;     //!< per pair
 };

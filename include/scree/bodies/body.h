@@ -26,7 +26,7 @@ struct BodyParameters
   std::string          body_force = dim == 2 ? "0; 0" : "0; 0; 0";
   /** Named boundary conditions with their section paths. */
   std::vector<std::pair<std::string, BoundaryConditionParameters<dim>>> conditions;
-  MotionParameters<dim> motion; //!< of a rigid body
+  MotionParameters<dim>                                                 motion; //!< of a rigid body
 
   void declare(ParameterSection &section);
 };
@@ -43,14 +43,14 @@ std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &
 template <int dim>
 struct Body
 {
-  std::string                          name;
-  std::string                          path; //!< section path, for messages
-  Lattice<dim>                         level_set;
-  dealii::BoundingBox<dim>             box; //!< of the body, clipped by the background box [L]
-  std::shared_ptr<const Material<dim>> material;
-  std::shared_ptr<const RigidBody<dim>> rigid; //!< null: the body is deformable
-  Expression<dim>                      body_force; //!< force per volume
-  std::vector<BoundaryCondition<dim>>  conditions;
+  std::string                           name;
+  std::string                           path; //!< section path, for messages
+  Lattice<dim>                          level_set;
+  dealii::BoundingBox<dim>              box; //!< of the body, clipped by the background box [L]
+  std::shared_ptr<const Material<dim>>  material;
+  std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
+  Expression<dim>                       body_force; //!< force per volume
+  std::vector<BoundaryCondition<dim>>   conditions;
 
   bool is_rigid() const
   {

@@ -137,14 +137,14 @@ public:
   dealii::Tensor<2, 3> generalised_moment_derivative(const dealii::Tensor<1, 3> &moment) const;
 
 private:
-  dealii::Point<dim>                   centre;
-  double                               radius;
-  dealii::Tensor<1, dim>               shift;
-  dealii::Tensor<1, 3>                 theta;
-  std::array<double, 4>                c, dc;    //!< c_k(s) and their first derivatives
-  std::array<double, 3>                ddc;      //!< second derivatives
-  dealii::Tensor<2, 3>                 R;
-  std::array<dealii::Tensor<2, 3>, 3>  dR;       //!< dR/dtheta_i
+  dealii::Point<dim>                  centre;
+  double                              radius;
+  dealii::Tensor<1, dim>              shift;
+  dealii::Tensor<1, 3>                theta;
+  std::array<double, 4>               c, dc; //!< c_k(s) and their first derivatives
+  std::array<double, 3>               ddc;   //!< second derivatives
+  dealii::Tensor<2, 3>                R;
+  std::array<dealii::Tensor<2, 3>, 3> dR; //!< dR/dtheta_i
 };
 
 /** The axis of a rotation component: 2D z, 3D x, y, z. */

@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_parameters.h>
 #include <scree/discretization/cut_quadrature.h>
+#include <scree/solver/condensed_solver.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -123,6 +124,15 @@ public:
   /** Adds the derivative of R_contact of the last evaluation. */
   void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
+  /** Rows of B: component d of [[u]] at point p is (B u)(p dim + d). */
+  SparseRows jump_rows() const;
+
+  /** Adds the derivative of R_contact with all points glued, open ones too: B^T D_0 B. */
+  void add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  /** E = D - D_0: the derivative of R_contact is B^T (D_0 + E) B; blocks row by row. */
+  std::vector<double> tangent_changes() const;
+
   /** The unknowns of each group, ascending: what couples in the matrix. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
@@ -131,6 +141,11 @@ private:
                    const std::vector<Body<dim>> &bodies, const double shift);
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+
+  /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
+  void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,
+                                       dealii::TrilinosWrappers::SparseMatrix    &matrix) const;
+  dealii::Tensor<2, dim> glued_tangent(const unsigned int point) const;
 
   /** Points of a pair with the same nodes. */
   struct Group
@@ -161,7 +176,8 @@ private:
   /** The nodes' unknowns of a group, then the free components of its rigid sides. */
   std::vector<DofIndex> unknowns(const Group &group) const;
   void add_rigid_couplings(const Group &group, const unsigned int point, const double *weight,
-                           dealii::FullMatrix<double> &block) const;
+                           const dealii::Tensor<2, dim> &stiffness,
+                           dealii::FullMatrix<double>   &block) const;
 
   std::vector<ContactPair>            contact_pairs;
   std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
@@ -170,8 +186,8 @@ private:
   std::vector<ContactPoint<dim>>      contact_points;
   /** Projections of each point on the bodies a and b; empty without rigid bodies. */
   std::vector<std::array<dealii::Point<dim>, 2>> contact_feet;
-  std::vector<Group>                  groups;
-  std::vector<DofIndex>               group_nodes;
+  std::vector<Group>                             groups;
+  std::vector<DofIndex>                          group_nodes;
   std::vector<double>                 stencil_weights; //!< per point, the nodes of its group
   std::vector<dealii::Tensor<1, dim>> contact_jumps;
   std::vector<ContactResponse<dim>>   contact_responses;

@@ -7,6 +7,7 @@
 #include <deal.II/distributed/tria.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,17 @@ enum class GridRefinement
   contact
 };
 
+/**
+ * The levels that the cells of a new grid shall have, from the active cells of an older one along
+ * the Morton curve: the same on all processes.
+ */
+struct WantedLevels
+{
+  unsigned int                                        finest_level   = 0; //!< the largest of them
+  unsigned int                                        coarsest_level = 0;
+  std::vector<std::pair<std::uint64_t, unsigned int>> cells; //!< key at finest_level, level
+};
+
 /** Parameters of section Grid. */
 template <int dim>
 struct GridParameters
@@ -35,6 +47,11 @@ struct GridParameters
   double                    band            = 3.;  //!< finest cells around contact, in h
   double                    grading         = 0.5; //!< growth of the cell size per distance
   std::string               cell_size_limit = "";  //!< expression of position [L]
+  /** Instead of `refinement`: levels from a run before (no entry). */
+  std::shared_ptr<const WantedLevels> wanted_levels;
+
+  /** These with the levels of a run before. */
+  GridParameters with(const std::shared_ptr<const WantedLevels> &levels) const;
 
   void declare(ParameterSection &section);
 
@@ -69,10 +86,18 @@ public:
   /**
    * Refines: a cell at distance m from where two bodies of `pairs` may touch keeps the size
    * h + grading * max(0, m - band h), with m = max(phi_a, phi_b); the expression of position limits
-   * it further. Uniform: all cells to the finest level.
+   * it further. Uniform: all cells to the finest level. With wanted levels: these, whatever the
+   * bodies; more where the balance of the grid asks for it.
    */
   void refine(const std::vector<Body<dim>>                             &bodies,
               const std::vector<std::pair<unsigned int, unsigned int>> &pairs);
+
+  /**
+   * The description of a grid on which the cells of this one have the given levels, or are finer;
+   * collective.
+   * @param levels of the owned cells, not below their own
+   */
+  WantedLevels wanted_levels(const std::vector<unsigned int> &levels) const;
 
   /** Owned cells first, then ghosts. */
   const std::vector<GridCell<dim>> &cells() const
@@ -129,6 +154,7 @@ public:
 
 private:
   void          list_cells();
+  void          refine_by(const WantedLevels &wanted);
   std::uint64_t key_of(const dealii::Point<dim> &point) const;
 
   GridParameters<dim>                               parameters;

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/free_bodies.h>
 #include <scree/mechanics/rigid_bodies.h>
-#include <scree/mechanics/rigid_motion.h>
-#include <scree/mechanics/strong_supports.h>
 #include <scree/state/state.h>
 
 #include <string>
@@ -26,13 +25,6 @@ struct Energies
   {
     return external_work - strain - ghost_penalty - boundary - contact - dissipation;
   }
-};
-
-/** How a body is held before contact: rigid motions that nothing but contact resists. */
-struct FreeMotion
-{
-  unsigned int body;
-  unsigned int n_free; //!< number of free rigid motions
 };
 
 /**
@@ -65,6 +57,22 @@ public:
   /** K at the u of the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
 
+  /** What stays the same in all tangents K = K_0 + B^T E B: K_0 with all contact points glued. */
+  struct Condensation
+  {
+    const Matrix &glued;     //!< K_0, valid until the next tangent()
+    SparseRows    jumps;     //!< B on the unknowns that are not prescribed
+    bool          symmetric; //!< K_0
+  };
+
+  Condensation condensation();
+
+  /** E at the u of the last residual(), blocks of dim x dim. */
+  std::vector<double> tangent_changes() const
+  {
+    return contact.tangent_changes();
+  }
+
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
 
@@ -86,14 +94,20 @@ public:
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &free_bodies() const
   {
-    return free_motions;
+    return free.motions();
   }
 
   /**
    * Free bodies that the contact of the last residual() does not hold either: with their unresisted
    * motions there is no equilibrium under a further load.
    */
-  std::vector<unsigned int> bodies_not_held() const;
+  std::vector<unsigned int> bodies_not_held() const
+  {
+    return free.not_held();
+  }
+
+  /** Whether the motion of a rigid body is unknown. */
+  bool has_free_rigid_bodies() const;
 
   const RigidBodies<dim> &rigid_bodies() const
   {
@@ -127,12 +141,10 @@ public:
   }
 
 private:
-  void                       set_up_matrices();
-  dealii::FullMatrix<double> resistance_of_supports(const unsigned int       body,
-                                                    const RigidMotions<dim> &motions) const;
-
-  void   find_free_bodies();
+  void   set_up_matrices();
+  void   set_up_artificial_mass();
   void   set_zero_on_prescribed(Vector &r) const;
+  void   add_artificial_mass(Matrix &matrix) const;
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
@@ -145,21 +157,21 @@ private:
   ContactPoints<dim>           &contact;
   StrongSupports<dim>           supports;
   RigidBodies<dim>              rigid;
+  FreeBodies<dim>               free;
 
-  Matrix                  stiffness;       //!< A
-  Matrix                  newton_matrix;   //!< K
-  Vector                  loads;           //!< f
-  Vector                  dead_loads;      //!< tractions, pressures and body forces in f
-  Vector                  internal_forces; //!< A u of the last residual()
-  Vector                  contact_forces;  //!< -R_contact of the last residual()
-  Vector                  applied_forces;  //!< on rigid bodies at the last residual()
-  Vector                  artificial_mass; //!< added to the diagonal for free bodies
-  Vector                  ghosted;         //!< u of the last residual() with ghosts
-  dealii::IndexSet        ghosted_dofs;
-  std::vector<FreeMotion> free_motions;
-  double                  time              = 0.;
-  double                  largest_stiffness = 0.; //!< largest diagonal entry of A
-  double                  displacement_norm = 0.; //!< |u| of the last residual()
+  Matrix stiffness;       //!< A
+  Matrix newton_matrix;   //!< K
+  Vector loads;           //!< f
+  Vector dead_loads;      //!< tractions, pressures and body forces in f
+  Vector internal_forces; //!< A u of the last residual()
+  Vector contact_forces;  //!< -R_contact of the last residual()
+  Vector applied_forces;  //!< on rigid bodies at the last residual()
+  Vector artificial_mass; //!< on the diagonal for free bodies and prescribed rigid components
+  Vector ghosted;         //!< u of the last residual() with ghosts
+  dealii::IndexSet ghosted_dofs;
+  double           time              = 0.;
+  double           largest_stiffness = 0.; //!< largest diagonal entry of A
+  double           displacement_norm = 0.; //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies current_energies;

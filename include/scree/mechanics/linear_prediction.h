@@ -14,14 +14,13 @@ namespace scree
  *
  * @param old_u the accepted state u_0
  * @param u     the same with the prescribed unknowns of the new time, after set_time()
- * @param solve solves K x = b
+ * @param solve solves K x = b at the u of the last residual
  */
 template <int dim>
 typename Equilibrium<dim>::Vector
 linear_prediction(Equilibrium<dim> &equilibrium, const ContactHistory<dim> &history,
-                  const typename Equilibrium<dim>::Vector &old_u,
-                  const typename Equilibrium<dim>::Vector &u,
-                  const std::function<void(const typename Equilibrium<dim>::Matrix &K,
-                                           typename Equilibrium<dim>::Vector       &x,
-                                           const typename Equilibrium<dim>::Vector &b)> &solve);
+                  const typename Equilibrium<dim>::Vector                         &old_u,
+                  const typename Equilibrium<dim>::Vector                         &u,
+                  const std::function<void(const typename Equilibrium<dim>::Vector &b,
+                                           typename Equilibrium<dim>::Vector       &x)> &solve);
 } // namespace scree

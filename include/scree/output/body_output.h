@@ -11,7 +11,8 @@ namespace scree
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
  * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
  * displacement, stress, von Mises and principal stresses, undeformed (ParaView: Warp By Vector).
- * Rigid bodies come whole, from their coarse lattice, without stress; the first process writes them.
+ * Rigid bodies come whole, from their coarse lattice, without stress; the first process writes
+ * them.
  */
 template <int dim>
 class BodyOutput

@@ -24,6 +24,14 @@ template <int dim>
 std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &contact,
                                                    const MPI_Comm            communicator);
 
+/** Names of the columns of a contact point, see write_contact_csv(). */
+template <int dim>
+std::vector<std::string> contact_columns();
+
+/** The columns of each contact point of this process, with the number of the pair in the first. */
+template <int dim>
+std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &contact);
+
 /**
  * Writes DIR/contact_NNNN.csv with all contact points, sorted by pair and position: pair, position,
  * normal, weight, gap, pressure p, tangential traction, jump [[u]], status (0 open, 1 stick, 2

@@ -37,6 +37,13 @@ public:
           const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes);
 
+  /** Names of the columns of history.csv, then those of probes.csv after the first. */
+  std::vector<std::string> columns(const Equilibrium<dim>   &equilibrium,
+                                   const ContactPoints<dim> &contact) const;
+
+  /** The values of columns() at the last write_history() and write_probes(), on all processes. */
+  std::vector<double> last_values() const;
+
   /** Adds the row of an accepted state to history.csv. */
   void write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
                      const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
@@ -56,10 +63,12 @@ public:
   void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 
 private:
-  void         open_history(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact);
-  void         write_pvd(const std::string                                 &name,
-                         const std::vector<std::pair<double, std::string>> &records) const;
-  unsigned int body_index(const std::string &name) const;
+  std::vector<std::string> history_columns(const Equilibrium<dim>   &equilibrium,
+                                           const ContactPoints<dim> &contact) const;
+  std::vector<std::string> probe_columns() const;
+  void                     write_pvd(const std::string                                 &name,
+                                     const std::vector<std::pair<double, std::string>> &records) const;
+  unsigned int             body_index(const std::string &name) const;
 
   std::string                                 directory;
   const Fields<dim>                          &fields;
@@ -68,6 +77,7 @@ private:
   BodyOutput<dim>                             body_output;
   bool                                        is_first; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
+  std::vector<double>                         history_row, probe_row; //!< the last ones
   std::vector<std::pair<double, std::string>> body_records, contact_records;
 };
 } // namespace scree

@@ -89,6 +89,9 @@ public:
    */
   bool is_set(const std::string &key) const;
 
+  /** The file that sets the entry `key`; empty if none does or the command line does. */
+  std::string file_of(const std::string &key) const;
+
   /**
    * Whether the visit only collects documentation: alternatives of which a run visits one should
    * then all be visited.

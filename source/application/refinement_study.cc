@@ -1,0 +1,281 @@
+#include <scree/application/refinement_study.h>
+#include <scree/base/exceptions.h>
+#include <scree/parameters/nearest_name.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace scree
+{
+namespace
+{
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/** Index of a name; @throws UserError with the nearest one if it is not there */
+unsigned int
+index_of(const std::string &name, const std::vector<std::string> &names, const std::string &where,
+         const std::string &what)
+{
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end())
+    return found - names.begin();
+  std::string all;
+  for (const std::string &candidate : names)
+    all += (all.empty() ? "" : ", ") + candidate;
+  throw UserError(where, "there is no " + what + " '" + name + "'" + did_you_mean(name, names),
+                  all.empty() ? "" : "choose one of: " + all);
+}
+
+template <int dim>
+unsigned int
+pair_index(const StudyQuantity<dim> &quantity, const ContactPoints<dim> &contact)
+{
+  std::vector<std::string> names;
+  for (const ContactPair &pair : contact.pairs())
+    names.push_back(pair.name);
+  return index_of(quantity.pair, names, quantity.path + "/Pair", "pair in contact");
+}
+} // namespace
+
+template <int dim>
+RefinementStudy<dim>::RefinementStudy(const Parameters<dim> &parameters,
+                                      const std::string     &output_directory,
+                                      const MPI_Comm         communicator)
+    : parameters(parameters)
+    , first_finest_level(parameters.grid.finest_level)
+    , first_shift(parameters.contact.shift)
+    , directory(output_directory)
+    , communicator(communicator)
+    , log(communicator, output_directory + "/log.txt")
+{
+}
+
+template <int dim>
+std::unique_ptr<Simulation<dim>>
+RefinementStudy<dim>::set_up(const unsigned int cycle)
+{
+  const std::string folder = directory + "/cycle-" + std::to_string(cycle);
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    std::filesystem::create_directories(folder);
+  MPI_Barrier(communicator);
+  log.line("Cycle " + std::to_string(cycle) + " of " + std::to_string(parameters.study.n_cycles));
+  return std::make_unique<Simulation<dim>>(parameters, folder, communicator);
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::require_quantities(const Simulation<dim> &simulation) const
+{
+  for (const auto &quantity : parameters.study.quantities)
+    {
+      if (quantity.is_curve())
+        pair_index(quantity, simulation.contact_points());
+      const auto names = quantity.is_curve() ? contact_columns<dim>() : simulation.columns();
+      index_of(quantity.column, names, quantity.path + "/Column", "column");
+    }
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::check()
+{
+  const auto simulation = set_up(0);
+  require_quantities(*simulation);
+  simulation->check();
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::run()
+{
+  const unsigned int n_cycles = parameters.study.n_cycles;
+  for (unsigned int c = 0; c < n_cycles; ++c)
+    {
+      const std::clock_t start      = std::clock();
+      const auto         simulation = set_up(c);
+      require_quantities(*simulation);
+      simulation->run();
+      Cycle cycle;
+      cycle.n_cells     = simulation->background_grid().triangulation().n_global_active_cells();
+      cycle.n_unknowns  = simulation->n_unknowns();
+      cycle.finest_edge = simulation->background_grid().finest_size();
+      cycle.seconds
+        = dealii::Utilities::MPI::sum(double(std::clock() - start) / CLOCKS_PER_SEC, communicator);
+      const ErrorEstimate estimate = simulation->estimate_error();
+      cycle.error_estimate         = estimate.relative;
+      measure(*simulation, cycle);
+      cycles.push_back(cycle);
+      if (c + 1 < n_cycles)
+        choose_next_grid(*simulation, estimate);
+    }
+  write_table();
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) const
+{
+  const auto names = simulation.columns(), contact_names = contact_columns<dim>();
+  const auto values = simulation.last_values();
+  for (const auto &quantity : parameters.study.quantities)
+    {
+      cycle.points.emplace_back();
+      cycle.numbers.push_back(unknown);
+      if (!quantity.is_curve())
+        {
+          cycle.numbers.back()
+            = values[index_of(quantity.column, names, quantity.path + "/Column", "column")];
+          continue;
+        }
+      const Expression<dim> along(quantity.along, 1, quantity.path + "/Along");
+      const Expression<dim> formula(quantity.reference.empty() ? "0" : quantity.reference, 1,
+                                    quantity.path + "/Reference");
+      const unsigned int    pair   = pair_index(quantity, simulation.contact_points());
+      const unsigned int    weight = index_of("weight", contact_names, quantity.path, "column");
+      const unsigned int    column
+        = index_of(quantity.column, contact_names, quantity.path + "/Column", "column");
+      const auto all = dealii::Utilities::MPI::all_gather(
+        communicator, contact_rows(simulation.contact_points()));
+      for (const auto &rows : all)
+        for (const auto &row : rows)
+          if (row[0] == pair)
+            {
+              dealii::Point<dim> position;
+              for (unsigned int d = 0; d < dim; ++d)
+                position[d] = row[1 + d];
+              cycle.points.back().push_back(
+                {along.value(position), row[column], row[weight], formula.value(position)});
+            }
+      std::sort(cycle.points.back().begin(), cycle.points.back().end());
+    }
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
+                                       const ErrorEstimate   &estimate)
+{
+  const BackgroundGrid<dim> &grid   = simulation.background_grid();
+  const unsigned int         finest = parameters.study.finest_level;
+  std::vector<unsigned int>  levels;
+  for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+    levels.push_back(grid.cells()[c].iterator->level());
+  if (parameters.study.strategy == StudyStrategy::uniform)
+    for (unsigned int &level : levels)
+      level = std::min(level + 1, finest);
+  else
+    {
+      const auto   marked = largest_share(estimate.squares, parameters.study.share, communicator);
+      const auto   in_contact       = simulation.contact_cells();
+      unsigned int level_of_contact = 0;
+      for (unsigned int c = 0; c < levels.size(); ++c)
+        if (in_contact[c])
+          level_of_contact = std::max(level_of_contact, levels[c] + 1);
+      level_of_contact = dealii::Utilities::MPI::max(level_of_contact, communicator);
+      for (unsigned int c = 0; c < levels.size(); ++c)
+        {
+          const unsigned int wanted = in_contact[c] ? level_of_contact : levels[c] + marked[c];
+          levels[c]                 = std::max(levels[c], std::min(wanted, finest));
+        }
+    }
+  const auto wanted = std::make_shared<const WantedLevels>(grid.wanted_levels(levels));
+  parameters.grid   = parameters.grid.with(wanted);
+  // The reach of contact keeps its length.
+  parameters.contact.shift
+    = first_shift * std::pow(2., double(wanted->finest_level) - double(first_finest_level));
+}
+
+template <int dim>
+typename RefinementStudy<dim>::Comparison
+RefinementStudy<dim>::compare(const unsigned int quantity, const unsigned int cycle) const
+{
+  const StudyQuantity<dim> &q       = parameters.study.quantities[quantity];
+  const bool                is_last = cycle + 1 == cycles.size();
+  if (!q.is_curve())
+    {
+      const double value = cycles[cycle].numbers[quantity];
+      const double reference
+        = q.compares_with_last()
+            ? cycles.back().numbers[quantity]
+            : Expression<dim>(q.reference, 1, q.path + "/Reference").value(dealii::Point<dim>());
+      const double error
+        = std::abs(value - reference) / (reference != 0. ? std::abs(reference) : 1.);
+      return {value, q.compares_with_last() && is_last ? unknown : error};
+    }
+  Curve curve = q.curve;
+  if (q.compares_with_last())
+    for (const auto &[coordinate, value, weight, formula] : cycles.back().points[quantity])
+      curve.emplace_back(coordinate, value);
+  if (cycles[cycle].points[quantity].empty() || (curve.empty() && q.reference.empty()))
+    return {unknown, unknown};
+  double of_value = 0., of_reference = 0., of_difference = 0.;
+  for (const auto &[coordinate, value, weight, formula] : cycles[cycle].points[quantity])
+    {
+      const double reference = curve.empty() ? formula : interpolate(curve, coordinate);
+      of_value += weight * value * value;
+      of_reference += weight * reference * reference;
+      of_difference += weight * (value - reference) * (value - reference);
+    }
+  const double error = std::sqrt(of_difference / (of_reference != 0. ? of_reference : 1.));
+  return {std::sqrt(of_value), q.compares_with_last() && is_last ? unknown : error};
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::write_table()
+{
+  std::vector<std::string> names
+    = {"cycle", "cells", "unknowns", "finest_edge", "cpu_seconds", "error_estimate"};
+  for (const auto &quantity : parameters.study.quantities)
+    for (const std::string suffix : {"", ".error", ".order"})
+      names.push_back(quantity.name + suffix);
+  std::vector<std::vector<double>> rows;
+  for (unsigned int c = 0; c < cycles.size(); ++c)
+    {
+      const Cycle &cycle = cycles[c];
+      rows.push_back({double(c), double(cycle.n_cells), double(cycle.n_unknowns), cycle.finest_edge,
+                      cycle.seconds, cycle.error_estimate});
+      for (unsigned int q = 0; q < parameters.study.quantities.size(); ++q)
+        {
+          const Comparison present = compare(q, c);
+          double           order   = unknown;
+          if (c > 0 && cycle.n_unknowns != cycles[c - 1].n_unknowns)
+            order = dim * std::log(compare(q, c - 1).error / present.error)
+                    / std::log(double(cycle.n_unknowns) / cycles[c - 1].n_unknowns);
+          rows.back().insert(rows.back().end(), {present.value, present.error, order});
+        }
+    }
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      CsvTable table(directory + "/study.csv", names);
+      for (const auto &row : rows)
+        table.add_row(row);
+    }
+  const auto print = [&](const auto &text_of_column) {
+    std::ostringstream line;
+    for (unsigned int i = 0; i < names.size(); ++i)
+      line << std::setw(std::max<int>(12, names[i].size() + 2)) << text_of_column(i);
+    log.line(line.str());
+  };
+  log.line("Refinement study:");
+  print([&](const unsigned int i) { return names[i]; });
+  for (const auto &row : rows)
+    print([&](const unsigned int i) {
+      return std::isnan(row[i]) ? "-"
+             : i < 3            ? std::to_string(std::lround(row[i]))
+                                : short_number(row[i]);
+    });
+  log.line("The table is " + directory + "/study.csv");
+}
+
+template class RefinementStudy<2>;
+template class RefinementStudy<3>;
+} // namespace scree
