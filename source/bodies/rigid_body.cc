@@ -21,7 +21,7 @@ stumpff(const double s)
     {
       const double theta = std::sqrt(s);
       const double c0 = std::cos(theta), c1 = std::sin(theta) / theta;
-      return {c0, c1, (1. - c0) / s, (1. - c1) / s};
+      return {{c0, c1, (1. - c0) / s, (1. - c1) / s}};
     }
   std::array<double, 4> c{};
   double                factorial = 1.;
@@ -42,8 +42,8 @@ std::array<double, 4>
 stumpff_derivative(const double s, const std::array<double, 4> &c)
 {
   if (s > 1.)
-    return {-0.5 * c[1], (c[0] - c[1]) / (2. * s), (c[1] - 2. * c[2]) / (2. * s),
-            (c[2] - 3. * c[3]) / (2. * s)};
+    return {{-0.5 * c[1], (c[0] - c[1]) / (2. * s), (c[1] - 2. * c[2]) / (2. * s),
+             (c[2] - 3. * c[3]) / (2. * s)}};
   std::array<double, 4> dc{};
   double                factorial = 2.;
   for (unsigned int k = 0; k < 4; ++k, factorial *= 2. + k)
@@ -63,7 +63,7 @@ std::array<double, 3>
 stumpff_second_derivative(const double s, const std::array<double, 4> &dc)
 {
   if (s > 1.)
-    return {-0.5 * dc[1], (dc[0] - 3. * dc[1]) / (2. * s), (dc[1] - 4. * dc[2]) / (2. * s)};
+    return {{-0.5 * dc[1], (dc[0] - 3. * dc[1]) / (2. * s), (dc[1] - 4. * dc[2]) / (2. * s)}};
   std::array<double, 3> ddc{};
   double                factorial = 24.;
   for (unsigned int k = 0; k < 3; ++k, factorial *= 4. + k)

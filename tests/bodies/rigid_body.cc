@@ -118,7 +118,7 @@ TEST(RigidPose, TurnsAboutTheReferencePoint)
 {
   const RigidBody<2> body  = rigid_body<2>();
   const double       angle = numbers::PI / 6.;
-  const RigidPose<2> pose(body, {1., 2., body.radius * angle});
+  const RigidPose<2> pose(body, {{1., 2., body.radius * angle}});
   EXPECT_LE((pose.displacement(body.reference_point) - Tensor<1, 2>({1., 2.})).norm(), 1e-15);
   const Point<2> X = body.reference_point + Point<2>(1., 0.);
   EXPECT_LE((pose.displacement(X) - Tensor<1, 2>({std::cos(angle), 2. + std::sin(angle)})).norm(),

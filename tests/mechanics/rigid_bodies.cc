@@ -116,10 +116,12 @@ const char *const friction = "set Law = coulomb\nset Friction coefficient = 0.4"
 
 TEST(RigidTangent, EqualsFiniteDifferences)
 {
-  for (const std::string law : {friction, "set Law = frictionless"})
+  // Steps that cross no change of state.
+  for (const auto &[law, step] :
+       {std::make_pair(friction, 1e-8), std::make_pair("set Law = frictionless", 1e-7)})
     {
-      compare_tangent<2>(block_and_rigid_disc(law), 0.02, 0.01, 1e-8);
-      compare_tangent<3>(block_and_rigid_ball(law), 0.02, 0.01, 1e-8);
+      compare_tangent<2>(block_and_rigid_disc(law), 0.02, 0.01, step);
+      compare_tangent<3>(block_and_rigid_ball(law), 0.02, 0.01, step);
     }
 }
 
@@ -170,23 +172,28 @@ text_of(const double value)
   return text.str();
 }
 
-/** Prescribes a motion of the cylinder, applies the reactions instead, and compares. */
+/**
+ * Prescribes a motion of the cylinder, applies reactions instead, and compares. Either the moment or
+ * the force in x: with both given the cylinder could roll anywhere.
+ */
 void
-compare_controls(const std::string &law)
+compare_controls(const std::string &law, const bool turns)
 {
   EquilibriumModel<2> by_motion(cylinder_on_block(
     "set Displacement x = 0.01*t\nset Displacement y = -0.04*t\nset Rotation = -0.0004*t", law));
-  const auto          of_motion = by_motion.step(1.);
+  const auto of_motion = by_motion.step(1.);
   ASSERT_TRUE(of_motion.converged()) << of_motion.message;
   const auto prescribed = rigid_state(by_motion);
   EXPECT_NEAR(prescribed.displacement[1], -0.04, 1e-15);
   EXPECT_LT(prescribed.force[1], -1.);
 
   EquilibriumModel<2> by_force(cylinder_on_block(
-    "set Force x = t*" + text_of(prescribed.force[0]) + "\nset Force y = t*"
-      + text_of(prescribed.force[1]) + "\nset Moment = t*" + text_of(prescribed.moment[2]),
+    "set Force y = t*" + text_of(prescribed.force[1])
+      + (turns ? "\nset Displacement x = 0.01*t\nset Moment = t*" + text_of(prescribed.moment[2])
+               : "\nset Force x = t*" + text_of(prescribed.force[0])
+                   + "\nset Rotation = -0.0004*t"),
     law));
-  const auto          of_force = by_force.step(1.);
+  const auto of_force = by_force.step(1.);
   ASSERT_TRUE(of_force.converged()) << of_force.message;
   const auto found = rigid_state(by_force);
   std::cout << "  iterations " << of_motion.iterations << " by motion, " << of_force.iterations
@@ -201,13 +208,14 @@ compare_controls(const std::string &law)
 
 TEST(ForceControl, ReproducesDisplacementControl)
 {
-  compare_controls(friction);
-  compare_controls("set Law = stick");
+  for (const std::string law : {friction, "set Law = stick"})
+    for (const bool turns : {false, true})
+      compare_controls(law, turns);
 }
 
 TEST(ForceControlMPI, ReproducesDisplacementControl)
 {
-  compare_controls(friction);
+  compare_controls(friction, false);
 }
 
 TEST(ForceControl, IterationsDoNotDependOnUnits)
@@ -258,8 +266,7 @@ TEST(ForceControl, BallIn3D)
   const auto  prescribed = rigid_state(by_motion);
   std::string forces;
   for (unsigned int d = 0; d < 3; ++d)
-    forces += std::string("set Force ") + "xyz"[d] + " = t*" + text_of(prescribed.force[d])
-              + "\nset Moment " + "xyz"[d] + " = t*" + text_of(prescribed.moment[d]) + "\n";
+    forces += std::string("set Force ") + "xyz"[d] + " = t*" + text_of(prescribed.force[d]) + "\n";
   for (const std::string type : {"iterative", "direct"})
     {
       EquilibriumModel<3> by_force(ball_on_block(forces, friction, type));
@@ -270,10 +277,9 @@ TEST(ForceControl, BallIn3D)
                 << ": Newton iterations " << of_motion.iterations << " by motion, "
                 << of_force.iterations << " by force; linear iterations "
                 << by_motion.linear_iterations << ", " << by_force.linear_iterations
-                << "; differences " << (found.displacement - prescribed.displacement).norm() / 0.05
-                << ", " << found.rotation.norm() * 4. / 0.05 << "\n";
+                << "; difference " << (found.displacement - prescribed.displacement).norm() / 0.05
+                << "\n";
       EXPECT_LE((found.displacement - prescribed.displacement).norm(), 1e-8 * 0.05);
-      EXPECT_LE(found.rotation.norm() * 4., 1e-8 * 0.05);
       EXPECT_LE(by_force.linear_iterations, by_motion.linear_iterations + 5);
     }
 }
@@ -287,7 +293,7 @@ TEST(FiniteRotation, GluedDiscTurnsARing)
   EquilibriumModel<2> model(
     grid_text("-1.2, -1.2", "1.2, 1.2", "4, 4", 4) + degree_text(2)
     + bodies_text({{"ring", shape_text("ring", "set Centre = 0, 0\nset Inner radius = 0.5\n"
-                                               "set Outer radius = 1")
+                                               "set Radius = 1")
                               + conditions_text({{"rim", "set Where = x*x + y*y > 0.6"}})},
                    {"disc", ball_text("0, 0", a) + motion_text("set Rotation = t*pi/6")}})
     + contact_text("set Law = tied") + solver_text(1e-10));
