@@ -294,6 +294,12 @@ LinearSolver::set_near_null_space(const std::vector<Vector> &modes)
   near_null_space = modes;
 }
 
+void
+LinearSolver::set_border(const unsigned int n_unknowns)
+{
+  n_border = n_unknowns;
+}
+
 bool
 LinearSolver::is_direct(const std::size_t n_unknowns) const
 {
@@ -369,8 +375,8 @@ LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b, con
     {
       const bool is_new = !multigrid || !multigrid->fits(A);
       if (is_new)
-        multigrid
-          = std::make_unique<Multigrid>(A, near_null_space, dimension, parameters, smooth_by_ilu);
+        multigrid = std::make_unique<Multigrid>(
+          A, Multigrid::Settings{dimension, n_border, smooth_by_ilu, parameters}, near_null_space);
       SolverControl control(
         is_new ? parameters.max_iterations
                : std::min(parameters.max_iterations, multigrid->expected_iterations(tolerance)),
@@ -378,11 +384,11 @@ LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b, con
       try
         {
           if (cg)
-            SolverCG<Vector>(control).solve(A, x, b, multigrid->preconditioner());
+            SolverCG<Vector>(control).solve(A, x, b, *multigrid);
           else
             // Preconditioned from the right, the iteration watches the true residual.
             SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
-              .solve(A, x, b, multigrid->preconditioner());
+              .solve(A, x, b, *multigrid);
           is_solved = true;
         }
       catch (const SolverControl::NoConvergence &)

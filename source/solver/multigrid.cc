@@ -20,55 +20,79 @@ constexpr double acceptable_growth = 1.5;
 constexpr double free_iterations = 4.;
 } // namespace
 
-Multigrid::Multigrid(const Matrix &A, const std::vector<Vector> &modes,
-                     const unsigned int dimension, const LinearSolverParameters &parameters,
-                     const bool smooth_by_ilu)
+Multigrid::Multigrid(const Matrix &A, const Settings &settings, const std::vector<Vector> &modes)
+    : graph(A.trilinos_matrix().Graph())
 {
   for (const Vector &mode : modes)
     AssertThrow(
       mode.size() == A.m() && mode.local_size() == A.local_size(),
       dealii::ExcMessage("The near null space is not distributed as the rows of the matrix."));
-  matrix.copy_from(A);
-  const Epetra_Map &rows = matrix.trilinos_matrix().RowMap();
+  if (settings.n_border == 0)
+    {
+      matrix = std::make_unique<Epetra_CrsMatrix>(A.trilinos_matrix());
+      initialize(*matrix, settings, modes);
+      return;
+    }
+  bordered = std::make_unique<BorderedPreconditioner>(A.trilinos_matrix(), settings.n_border);
+  initialize(bordered->inner_matrix(), settings, modes);
+  bordered->set_inner(amg.trilinos_operator());
+}
+
+void
+Multigrid::initialize(const Epetra_CrsMatrix &A, const Settings &settings,
+                      const std::vector<Vector> &modes)
+{
+  const Epetra_Map &rows = A.RowMap();
   // ML needs whole nodes on every process.
-  const bool whole_nodes = dealii::Utilities::MPI::min(
-    rows.NumMyElements() % dimension == 0 ? 1 : 0, matrix.get_mpi_communicator());
+  const int dimension       = settings.dimension;
+  int       has_whole_nodes = rows.NumMyElements() % dimension == 0, whole_nodes = 0;
+  rows.Comm().MinAll(&has_whole_nodes, &whole_nodes, 1);
 
   Teuchos::ParameterList list;
   ML_Epetra::SetDefaults("SA", list);
   list.set("ML output", 0);
-  if (smooth_by_ilu)
+  if (settings.smooth_by_ilu)
     {
       list.set("smoother: type", "IFPACK");
       list.set("smoother: ifpack type", "ILU");
-      list.set("smoother: ifpack level-of-fill", 1.);
+      // One level of fill in 3D takes longer than all the rest.
+      list.set("smoother: ifpack level-of-fill", dimension == 2 ? 1. : 0.);
     }
   else
     {
       list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", static_cast<int>(parameters.amg_smoother_sweeps));
+      list.set("smoother: sweeps", static_cast<int>(settings.parameters.amg_smoother_sweeps));
     }
   list.set("coarse: type", "Amesos-KLU");
   list.set("coarse: max size", 2000);
-  list.set("aggregation: threshold", parameters.amg_aggregation_threshold);
-  list.set("PDE equations", whole_nodes ? static_cast<int>(dimension) : 1);
+  list.set("aggregation: threshold", settings.parameters.amg_aggregation_threshold);
+  list.set("PDE equations", whole_nodes ? dimension : 1);
 
   Epetra_MultiVector null_space(rows, std::max<int>(1, modes.size()));
   for (unsigned int k = 0; k < modes.size(); ++k)
-    std::copy(modes[k].begin(), modes[k].end(), null_space[k]);
+    std::copy(modes[k].begin(), modes[k].begin() + rows.NumMyElements(), null_space[k]);
   if (!modes.empty())
     {
       list.set("null space: type", "pre-computed");
       list.set("null space: dimension", static_cast<int>(modes.size()));
       list.set("null space: vectors", null_space.Values());
     }
-  amg.initialize(matrix, list);
+  amg.initialize(A, list);
+}
+
+void
+Multigrid::vmult(Vector &dst, const Vector &src) const
+{
+  if (bordered)
+    bordered->vmult(dst, src);
+  else
+    amg.vmult(dst, src);
 }
 
 bool
 Multigrid::fits(const Matrix &A) const
 {
-  return A.trilinos_matrix().Graph().DataPtr() == matrix.trilinos_matrix().Graph().DataPtr();
+  return A.trilinos_matrix().Graph().DataPtr() == graph.DataPtr();
 }
 
 unsigned int

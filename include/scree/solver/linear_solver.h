@@ -157,6 +157,12 @@ public:
   }
 
   /**
+   * The last unknowns that belong to no node, as those of rigid bodies and multipliers: the AMG
+   * does not see them, see BorderedPreconditioner.
+   */
+  void set_border(const unsigned int n_unknowns);
+
+  /**
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
    * @param symmetric whether A is symmetric positive definite, so that CG may be used
@@ -182,6 +188,7 @@ private:
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
   bool                           smooth_by_ilu;
+  unsigned int                   n_border = 0;
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
   std::unique_ptr<Multigrid>     multigrid;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <scree/solver/bordered_preconditioner.h>
 #include <scree/solver/linear_solver.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
+
+#include <Epetra_CrsGraph.h>
 
 namespace scree
 {
@@ -17,21 +20,24 @@ public:
   using Vector = LinearSolver::Vector;
   using Matrix = LinearSolver::Matrix;
 
+  struct Settings
+  {
+    unsigned int           dimension;
+    unsigned int           n_border; //!< last rows that are not local, see BorderedPreconditioner
+    bool                   smooth_by_ilu; //!< instead of Chebyshev
+    LinearSolverParameters parameters;
+  };
+
   /**
    * @param modes near null space, distributed as the rows of A; none: the translations of unknowns
    *              that are numbered node by node
-   * @param smooth_by_ilu ILU(1) instead of Chebyshev
    */
-  Multigrid(const Matrix &A, const std::vector<Vector> &modes, const unsigned int dimension,
-            const LinearSolverParameters &parameters, const bool smooth_by_ilu);
+  Multigrid(const Matrix &A, const Settings &settings, const std::vector<Vector> &modes);
 
   /** Whether A has the graph (the same object) of the matrix it was built for. */
   bool fits(const Matrix &A) const;
 
-  const dealii::TrilinosWrappers::PreconditionAMG &preconditioner() const
-  {
-    return amg;
-  }
+  void vmult(Vector &dst, const Vector &src) const;
 
   /** Iterations to a relative tolerance that a hierarchy worth keeping needs; the first are free.
    */
@@ -44,7 +50,12 @@ public:
   bool is_worth_keeping(const unsigned int iterations, const double relative_residual);
 
 private:
-  Matrix                                    matrix;
+  void initialize(const Epetra_CrsMatrix &A, const Settings &settings,
+                  const std::vector<Vector> &modes);
+
+  Epetra_CrsGraph                           graph;
+  std::unique_ptr<Epetra_CrsMatrix>         matrix;   //!< without border
+  std::unique_ptr<BorderedPreconditioner>   bordered; //!< holds its own part of the matrix
   dealii::TrilinosWrappers::PreconditionAMG amg;
   double iterations_per_digit = 0.; //!< when new; 0: not yet known
 };
