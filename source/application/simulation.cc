@@ -252,6 +252,35 @@ Simulation<dim>::slides_away(const unsigned int body) const
 }
 
 template <int dim>
+LinearSolveResult
+Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du)
+{
+  const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
+  if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points))
+    try
+      {
+        const Timings::Scope scope(timings, "linear solver");
+        if (!condensed_solver)
+          {
+            const auto system = equilibrium->condensation();
+            condensed_solver
+              = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
+          }
+        return condensed_solver->solve(equilibrium->tangent_changes(), dim, du, r);
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The full system tells what is wrong, if anything is.
+      }
+  const auto *matrix = [&]() {
+    const Timings::Scope scope(timings, "tangent");
+    return &equilibrium->tangent();
+  }();
+  const Timings::Scope scope(timings, "linear solver");
+  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+}
+
+template <int dim>
 NewtonResult
 Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
 {
@@ -262,12 +291,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     equilibrium->residual(u, state.contact, r);
   };
   hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
-    const auto *matrix = [&]() {
-      const Timings::Scope scope(timings, "tangent");
-      return &equilibrium->tangent();
-    }();
-    const Timings::Scope scope(timings, "linear solver");
-    const auto           solved = linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+    const auto solved = solve_linear_system(r, du);
     record.linear_iterations += solved.iterations;
   };
   hooks.reference = [&]() {

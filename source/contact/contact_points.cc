@@ -220,32 +220,103 @@ ContactPoints<dim>::add_to_residual(Vector &residual) const
 
 template <int dim>
 void
-ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+ContactPoints<dim>::add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,
+                                  dealii::TrilinosWrappers::SparseMatrix    &matrix) const
 {
   dealii::FullMatrix<double> block;
   for (const Group &group : groups)
     {
       block.reinit(group.n_nodes * dim, group.n_nodes * dim);
-      bool          is_closed = false;
-      const double *weight    = &stencil_weights[group.first_weight];
+      bool          is_stiff = false;
+      const double *weight   = &stencil_weights[group.first_weight];
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
-          if (contact_responses[p].status == ContactStatus::open)
+          const dealii::Tensor<2, dim> &D = stiffness[p];
+          if (D.norm_square() == 0.)
             continue;
-          is_closed = true;
-          const dealii::Tensor<2, dim> stiffness
-            = contact_points[p].weight * contact_responses[p].tangent;
+          is_stiff = true;
           for (unsigned int i = 0; i < group.n_nodes; ++i)
             for (unsigned int j = 0; j < group.n_nodes; ++j)
               for (unsigned int d = 0; d < dim; ++d)
                 for (unsigned int e = 0; e < dim; ++e)
-                  block(i * dim + d, j * dim + e) += weight[i] * weight[j] * stiffness[d][e];
+                  block(i * dim + d, j * dim + e) += weight[i] * weight[j] * D[d][e];
         }
-      if (!is_closed)
-        continue;
-      matrix.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
+      if (is_stiff)
+        matrix.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
     }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  std::vector<dealii::Tensor<2, dim>> stiffness(contact_points.size());
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    if (contact_responses[p].status != ContactStatus::open)
+      stiffness[p] = contact_points[p].weight * contact_responses[p].tangent;
+  add_to_matrix(stiffness, matrix);
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+ContactPoints<dim>::glued_tangent(const unsigned int point) const
+{
+  const auto &n      = contact_points[point].normal;
+  const auto  normal = dealii::outer_product(n, n);
+  return contact_points[point].weight
+         * (eps_n(point) * normal + eps_t(point) * (dealii::unit_symmetric_tensor<dim>() - normal));
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  std::vector<dealii::Tensor<2, dim>> stiffness;
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    stiffness.push_back(glued_tangent(p));
+  add_to_matrix(stiffness, matrix);
+}
+
+template <int dim>
+std::vector<double>
+ContactPoints<dim>::tangent_changes() const
+{
+  constexpr double    negligible = 1e-14;
+  std::vector<double> changes;
+  changes.reserve(contact_points.size() * dim * dim);
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    {
+      const dealii::Tensor<2, dim> glued  = glued_tangent(p);
+      dealii::Tensor<2, dim>       change = -glued;
+      if (contact_responses[p].status != ContactStatus::open)
+        change += contact_points[p].weight * contact_responses[p].tangent;
+      if (change.norm() <= negligible * glued.norm())
+        change = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          changes.push_back(change[d][e]);
+    }
+  return changes;
+}
+
+template <int dim>
+SparseRows
+ContactPoints<dim>::jump_rows() const
+{
+  SparseRows rows;
+  for (const Group &group : groups)
+    for (unsigned int p = 0; p < group.n_points; ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          for (unsigned int i = 0; i < group.n_nodes; ++i)
+            {
+              rows.columns.push_back(group_nodes[group.first_node + i] + d);
+              rows.values.push_back(stencil_weights[group.first_weight + p * group.n_nodes + i]);
+            }
+          rows.begin.push_back(rows.columns.size());
+        }
+  return rows;
 }
 
 template <int dim>

@@ -172,13 +172,44 @@ Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
   contact.add_to_matrix(newton_matrix);
-  if (!free_motions.empty())
-    for (const DofIndex index : fields.owned())
-      if (artificial_mass(index) != 0.)
-        newton_matrix.add(index, index, artificial_mass(index));
+  add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);
   return newton_matrix;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Condensation
+Equilibrium<dim>::condensation()
+{
+  newton_matrix.copy_from(stiffness);
+  contact.add_glued_to_matrix(newton_matrix);
+  add_artificial_mass(newton_matrix);
+  newton_matrix.compress(dealii::VectorOperation::add);
+  eliminate_prescribed(newton_matrix);
+
+  // Prescribed unknowns may belong to any process: a ghosted vector tells them.
+  Vector is_prescribed(fields.owned(), fields.grid.communicator());
+  for (const auto &unknown : supports.unknowns())
+    is_prescribed(unknown.index) = 1.;
+  is_prescribed.compress(dealii::VectorOperation::insert);
+  Vector with_ghosts(ghosted);
+  with_ghosts     = is_prescribed;
+  SparseRows rows = contact.jump_rows();
+  for (std::size_t i = 0; i < rows.columns.size(); ++i)
+    if (with_ghosts(rows.columns[i]) != 0.)
+      rows.values[i] = 0.;
+  return {newton_matrix, rows, boundary_terms.is_symmetric()};
+}
+
+template <int dim>
+void
+Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
+{
+  if (!free_motions.empty())
+    for (const DofIndex index : fields.owned())
+      if (artificial_mass(index) != 0.)
+        matrix.add(index, index, artificial_mass(index));
 }
 
 template <int dim>

@@ -1,4 +1,5 @@
 #include <scree/solver/linear_solver.h>
+#include <scree/solver/mumps.h>
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
@@ -6,8 +7,8 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <Amesos.h>
-#include <Amesos_Mumps.h>
 #include <Epetra_LinearProblem.h>
+#include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
@@ -34,9 +35,6 @@ constexpr double direct_residual_limit = 1e-3;
 
 /** Basis vectors of GMRES before a restart. */
 constexpr unsigned int gmres_basis = 150;
-
-/** Extra memory of MUMPS in percent of its own estimate, one after the other. */
-constexpr std::array<int, 4> mumps_memory = {{40, 100, 300, 1000}};
 
 const EnumNames<LinearSolverType> type_names = {{LinearSolverType::automatic, "automatic"},
                                                 {LinearSolverType::direct, "direct"},
@@ -151,6 +149,10 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "Unknowns up to which automatic means direct in three dimensions.");
   section.entry("Direct package", direct_package, package_names,
                 "Direct solver. automatic: KLU for small systems on one process, else MUMPS.");
+  section.entry(
+    "Condense up to", condense_up_to,
+    "Contact points times dimension up to which direct systems are condensed to them: one "
+    "factorisation serves all iterations and steps. 0: never.");
   section.entry("Iterative method", krylov_method, krylov_names,
                 "CG is for symmetric matrices only. automatic: CG for symmetric matrices, GMRES "
                 "with friction.");
@@ -170,18 +172,20 @@ LinearSolverParameters::declare(const ParameterSection &section)
 }
 
 /**
- * An Amesos solver with its symbolic factorisation. It works on a matrix of its own, which shares
- * the graph of the user's one, since Amesos needs the matrix as long as it lives itself.
+ * A direct solver with its symbolic factorisation: KLU through Amesos, on a matrix of its own,
+ * which shares the graph of the user's one, since Amesos needs the matrix as long as it lives
+ * itself; or MUMPS.
  */
 class LinearSolver::Factorisation
 {
 public:
-  Factorisation(const Epetra_CrsMatrix &A, const DirectPackage package);
+  Factorisation(const Epetra_CrsMatrix &A, const DirectPackage package, const bool symmetric);
 
   /** Whether A has the graph (the same object) that was analysed. */
-  bool fits(const Epetra_CrsMatrix &A, const DirectPackage package) const
+  bool fits(const Epetra_CrsMatrix &A, const DirectPackage package, const bool symmetric) const
   {
-    return A.Graph().DataPtr() == matrix.Graph().DataPtr() && package == this->package;
+    return A.Graph().DataPtr() == matrix.Graph().DataPtr() && package == this->package
+           && (package == DirectPackage::klu || symmetric == this->symmetric);
   }
 
   /** Takes over the values of A. */
@@ -191,7 +195,8 @@ public:
   void solve(Epetra_Vector &x, const Epetra_Vector &b);
 
 private:
-  void factorise();
+  void solve_with_klu(Epetra_MultiVector &left, Epetra_MultiVector &right);
+  void solve_with_mumps(Epetra_MultiVector &left, const Epetra_MultiVector &right);
 
   /** The smallest of the return codes on all processes. */
   int agreed(const int code) const
@@ -203,15 +208,18 @@ private:
 
   Epetra_CrsMatrix                   matrix;
   DirectPackage                      package;
+  bool                               symmetric;
   const std::string                 &name;
   Epetra_LinearProblem               problem;
-  std::unique_ptr<Amesos_BaseSolver> solver;
-  std::size_t                        memory = 0; // index into mumps_memory
+  std::unique_ptr<Amesos_BaseSolver> klu;
+  std::unique_ptr<Mumps>             mumps;
 };
 
-LinearSolver::Factorisation::Factorisation(const Epetra_CrsMatrix &A, const DirectPackage package)
+LinearSolver::Factorisation::Factorisation(const Epetra_CrsMatrix &A, const DirectPackage package,
+                                           const bool symmetric)
     : matrix(A)
     , package(package)
+    , symmetric(symmetric)
     , name(name_of(package_names, package))
 {
   problem.SetOperator(&matrix);
@@ -232,36 +240,54 @@ LinearSolver::Factorisation::update(const Epetra_CrsMatrix &A)
 }
 
 void
-LinearSolver::Factorisation::factorise()
+LinearSolver::Factorisation::solve_with_klu(Epetra_MultiVector &left, Epetra_MultiVector &right)
 {
-  for (;; ++memory)
+  if (!klu)
     {
-      if (!solver)
+      klu.reset(Amesos().Create("Amesos_Klu", problem));
+      AssertThrow(klu, ExcMessage("Trilinos was built without Amesos_Klu."));
+      if (const int code = agreed(klu->SymbolicFactorization()))
         {
-          solver.reset(Amesos().Create(
-            package == DirectPackage::klu ? "Amesos_Klu" : "Amesos_Mumps", problem));
-          AssertThrow(solver, ExcMessage("Trilinos was built without Amesos_" + name + "."));
-          if (auto *mumps = dynamic_cast<Amesos_Mumps *>(solver.get()))
-            mumps->SetICNTL(14, mumps_memory[memory]);
-          if (const int code = agreed(solver->SymbolicFactorization()))
-            {
-              solver.reset();
-              fail(name, " cannot analyse the matrix (code ", code, ")");
-            }
+          klu.reset();
+          fail(name, " cannot analyse the matrix (code ", code, ")");
         }
-      const int code = agreed(solver->NumericFactorization());
-      if (code == 0)
-        return;
-
-      int mumps_code = 0;
-      if (auto *mumps = dynamic_cast<Amesos_Mumps *>(solver.get()))
-        mumps_code = agreed(matrix.Comm().MyPID() == 0 ? mumps->GetINFOG()[0] : 0);
-      solver.reset();
-      const bool out_of_memory = mumps_code == -8 || mumps_code == -9;
-      if (!out_of_memory || memory + 1 == mumps_memory.size())
-        fail(name, " cannot factorise the matrix (code ", mumps_code ? mumps_code : code,
-             "), it is singular");
     }
+  if (const int code = agreed(klu->NumericFactorization()))
+    {
+      klu.reset();
+      fail(name, " cannot factorise the matrix (code ", code, "), it is singular");
+    }
+  problem.SetLHS(&left);
+  problem.SetRHS(&right);
+  const int code = agreed(klu->Solve());
+  problem.SetLHS(nullptr);
+  problem.SetRHS(nullptr);
+  if (code != 0)
+    fail(name, " cannot solve (code ", code, ")");
+}
+
+void
+LinearSolver::Factorisation::solve_with_mumps(Epetra_MultiVector       &left,
+                                              const Epetra_MultiVector &right)
+{
+  const MatrixEntries entries = matrix_entries(matrix, symmetric);
+  if (!mumps)
+    mumps = std::make_unique<Mumps>(matrix.NumGlobalRows(), symmetric, entries, std::vector<int>(),
+                                    dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+  mumps->factorise(entries.values);
+  std::vector<double> columns;
+  for (int k = 0; k < right.NumVectors(); ++k)
+    {
+      const std::vector<double> column = gather_to_root(*right(k));
+      columns.insert(columns.end(), column.begin(), column.end());
+    }
+  mumps->solve(columns);
+  left.PutScalar(0.);
+  for (int k = 0; k < left.NumVectors(); ++k)
+    add_from_root(
+      std::vector<double>(columns.begin() + k * columns.size() / left.NumVectors(),
+                          columns.begin() + (k + 1) * columns.size() / left.NumVectors()),
+      *left(k));
 }
 
 void
@@ -284,14 +310,10 @@ LinearSolver::Factorisation::solve(Epetra_Vector &x, const Epetra_Vector &b)
   if (!std::isfinite(norms[1]))
     fail("the matrix is not finite");
 
-  factorise();
-  problem.SetLHS(&left);
-  problem.SetRHS(&right);
-  const int code = agreed(solver->Solve());
-  problem.SetLHS(nullptr);
-  problem.SetRHS(nullptr);
-  if (code != 0)
-    fail(name, " cannot solve (code ", code, ")");
+  if (package == DirectPackage::klu)
+    solve_with_klu(left, right);
+  else
+    solve_with_mumps(left, right);
 
   left.Norm2(norms.data());
   if (!std::isfinite(norms[0]) || !std::isfinite(norms[1]))
@@ -319,6 +341,14 @@ LinearSolver::set_near_null_space(const std::vector<Vector> &modes)
   near_null_space = modes;
 }
 
+bool
+LinearSolver::is_direct(const std::size_t n_unknowns) const
+{
+  if (parameters.type != LinearSolverType::automatic)
+    return parameters.type == LinearSolverType::direct;
+  return n_unknowns <= (dimension == 2 ? parameters.direct_up_to_2d : parameters.direct_up_to_3d);
+}
+
 LinearSolveResult
 LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric)
 {
@@ -327,13 +357,10 @@ LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symm
   if (!std::isfinite(norm))
     fail("the right-hand side is not finite");
 
-  const unsigned int direct_up_to
-    = dimension == 2 ? parameters.direct_up_to_2d : parameters.direct_up_to_3d;
-  const bool automatic = parameters.type == LinearSolverType::automatic;
-
+  const bool        automatic = parameters.type == LinearSolverType::automatic;
   LinearSolveResult result;
-  if (parameters.type == LinearSolverType::direct || (automatic && A.m() <= direct_up_to))
-    result = solve_directly(A, x, b);
+  if (is_direct(A.m()))
+    result = solve_directly(A, x, b, symmetric);
   else
     try
       {
@@ -343,19 +370,19 @@ LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symm
       {
         if (!automatic)
           throw;
-        result = solve_directly(A, x, b);
+        result = solve_directly(A, x, b, symmetric);
       }
   result.seconds = timer.wall_time();
   return result;
 }
 
 LinearSolveResult
-LinearSolver::solve_directly(const Matrix &A, Vector &x, const Vector &b)
+LinearSolver::solve_directly(const Matrix &A, Vector &x, const Vector &b, const bool symmetric)
 {
   const DirectPackage     package = chosen_package(parameters.direct_package, A);
   const Epetra_CrsMatrix &matrix  = A.trilinos_matrix();
-  if (!factorisation || !factorisation->fits(matrix, package))
-    factorisation = std::make_unique<Factorisation>(matrix, package);
+  if (!factorisation || !factorisation->fits(matrix, package, symmetric))
+    factorisation = std::make_unique<Factorisation>(matrix, package, symmetric);
   else
     factorisation->update(matrix);
   factorisation->solve(*x.trilinos_vector()(0), *b.trilinos_vector()(0));

@@ -83,9 +83,11 @@ private:
   typename Equilibrium<dim>::Vector first_guess(const double time);
   bool                              solve_step(const double time);
   NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
-  void                              report_step(const double wall_time);
-  [[noreturn]] void                 throw_slides_away(const unsigned int body) const;
-  std::vector<double>               contact_force_on_bodies() const;
+  /** Solves K du = r, condensed to the contact points where that pays. */
+  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du);
+  void                report_step(const double wall_time);
+  [[noreturn]] void   throw_slides_away(const unsigned int body) const;
+  std::vector<double> contact_force_on_bodies() const;
   /** Whether the contact force on a body vanished in the course of the Newton iterations. */
   bool lost_contact(const unsigned int body) const;
   /** Whether neither supports nor contact resist all motions of a body, or it lost its contact. */
@@ -113,6 +115,7 @@ private:
   std::unique_ptr<BoundaryTerms<dim>> boundary_terms;
   std::unique_ptr<Equilibrium<dim>>   equilibrium;
   std::unique_ptr<LinearSolver>       linear_solver;
+  std::unique_ptr<CondensedSolver>    condensed_solver; //!< made when first needed
   std::unique_ptr<Results<dim>>       results;
   StepControl                         step_control;
   State<dim>                          state;

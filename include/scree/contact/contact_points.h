@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_parameters.h>
 #include <scree/discretization/cut_quadrature.h>
+#include <scree/solver/condensed_solver.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -105,6 +106,15 @@ public:
   /** Adds the derivative of R_contact of the last evaluation. */
   void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
+  /** Rows of B: component d of [[u]] at point p is (B u)(p dim + d). */
+  SparseRows jump_rows() const;
+
+  /** Adds the derivative of R_contact with all points glued, open ones too: B^T D_0 B. */
+  void add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  /** E = D - D_0: the derivative of R_contact is B^T (D_0 + E) B; blocks row by row. */
+  std::vector<double> tangent_changes() const;
+
   /** The nodes of each group: what couples in the matrix. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
@@ -112,6 +122,11 @@ private:
   void find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                    const std::vector<Body<dim>> &bodies, const double shift);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+
+  /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
+  void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,
+                                       dealii::TrilinosWrappers::SparseMatrix    &matrix) const;
+  dealii::Tensor<2, dim> glued_tangent(const unsigned int point) const;
 
   struct Group
   {

@@ -60,6 +60,22 @@ public:
   /** K at the u of the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
 
+  /** What stays the same in all tangents K = K_0 + B^T E B: K_0 with all contact points glued. */
+  struct Condensation
+  {
+    const Matrix &glued;     //!< K_0, valid until the next tangent()
+    SparseRows    jumps;     //!< B on the unknowns that are not prescribed
+    bool          symmetric; //!< K_0
+  };
+
+  Condensation condensation();
+
+  /** E at the u of the last residual(), blocks of dim x dim. */
+  std::vector<double> tangent_changes() const
+  {
+    return contact.tangent_changes();
+  }
+
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
 
@@ -116,6 +132,7 @@ private:
                                                     const RigidMotions<dim> &motions) const;
 
   void   find_free_bodies();
+  void   add_artificial_mass(Matrix &matrix) const;
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);

@@ -64,6 +64,9 @@ struct LinearSolverParameters
 
   DirectPackage direct_package = DirectPackage::automatic;
 
+  /** Rows of contact (points times dimension) up to which a direct solver condenses to them. */
+  unsigned int condense_up_to = 3000;
+
   KrylovMethod krylov_method = KrylovMethod::automatic;
 
   /** The iteration ends at |b - A x|_2 <= tolerance |b|_2; 0 < tolerance < 1. */
@@ -141,6 +144,13 @@ public:
    */
   void set_near_null_space(const std::vector<Vector> &modes);
 
+  /** Whether a system of this size is to be solved directly, condensed to its rows of contact. */
+  bool condenses(const std::size_t n_unknowns, const std::size_t n_contact_rows) const
+  {
+    return is_direct(n_unknowns) && n_contact_rows > 0
+           && n_contact_rows <= parameters.condense_up_to;
+  }
+
   /**
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
@@ -153,7 +163,10 @@ public:
 private:
   class Factorisation;
 
-  LinearSolveResult solve_directly(const Matrix &A, Vector &x, const Vector &b);
+  bool is_direct(const std::size_t n_unknowns) const;
+
+  LinearSolveResult solve_directly(const Matrix &A, Vector &x, const Vector &b,
+                                   const bool symmetric);
 
   LinearSolveResult solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
                                       const bool symmetric) const;

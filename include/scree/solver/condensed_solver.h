@@ -1,0 +1,63 @@
+#pragma once
+
+#include <scree/solver/linear_solver.h>
+#include <scree/solver/mumps.h>
+
+#include <Epetra_CrsMatrix.h>
+
+namespace scree
+{
+/** Sparse rows on this process; columns are unknowns of any process. */
+struct SparseRows
+{
+  std::vector<std::size_t> begin = {0}; //!< row i has the entries begin[i] ... begin[i + 1] - 1
+  std::vector<int>         columns;
+  std::vector<double>      values;
+
+  std::size_t n_rows() const
+  {
+    return begin.size() - 1;
+  }
+};
+
+/**
+ * Solves (K + B^T E B) x = b for many E and b with one factorisation (Sherman, Morrison, Woodbury):
+ * with the compliance C = B K^{-1} B^T of the rows of B,
+ *
+ *     (I + C E) z = B K^{-1} b,    x = K^{-1} (b - B^T E z),
+ *
+ * where z = B x. C comes as the Schur complement of [K B^T; B 0], at the price of one
+ * factorisation (Mumps). E is block diagonal; rows where it vanishes leave the dense system, which
+ * is solved on process 0.
+ */
+class CondensedSolver
+{
+public:
+  using Vector = LinearSolver::Vector;
+  using Matrix = LinearSolver::Matrix;
+
+  /** Factorises. @param symmetric K is symmetric */
+  CondensedSolver(const Matrix &K, const SparseRows &B, const bool symmetric);
+
+  /**
+   * @param E blocks of `block` x `block` numbers, row by row, for the rows of B on this process
+   * @return method "condensed" with the relative residual
+   * @throws LinearSolverFailure if the matrix is singular to working precision
+   */
+  LinearSolveResult solve(const std::vector<double> &E, const unsigned int block, Vector &x,
+                          const Vector &b) const;
+
+private:
+  void add_solution(const std::vector<double> &E, const unsigned int block, const Vector &r,
+                    Vector &x) const;
+  std::vector<double> solve_dense(const std::vector<double> &E, const unsigned int block,
+                                  const std::vector<double> &y) const;
+  void residual(const std::vector<double> &E, const unsigned int block, const Vector &x,
+                const Vector &b, Vector &r) const;
+
+  Matrix                            K;
+  MPI_Comm                          communicator;
+  std::unique_ptr<Epetra_CrsMatrix> B;
+  std::unique_ptr<Mumps>            mumps;
+};
+} // namespace scree
