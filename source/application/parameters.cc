@@ -81,6 +81,13 @@ Parameters<dim>::declare(ParameterFile &file)
       output_section.error("Probes",
                            "probe '" + probe.name + "': there is no body '" + probe.body + "'",
                            "name a body of section Bodies");
+  for (const auto &probe : output.probes)
+    for (const auto &body : bodies)
+      if (probe.body == body.name && materials.count(body.material)
+          && materials.at(body.material).is_rigid())
+        output_section.error("Probes",
+                             "probe '" + probe.name + "': the body '" + probe.body + "' is rigid",
+                             "its motion and load are in history.csv");
 
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");

@@ -1,12 +1,14 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/contact/contact_reach.h>
+#include <scree/mechanics/linear_prediction.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace scree
@@ -101,6 +103,7 @@ Simulation<dim>::set_up()
   was_closed.assign(contact->points().size(), false);
   linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
   linear_solver->set_near_null_space(equilibrium->rigid_motions());
+  linear_solver->set_border(fields->n_trailing());
   results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
                                            parameters.output.probes);
   state   = initial_state(*fields, *contact);
@@ -118,7 +121,9 @@ Simulation<dim>::find_pairs() const
   for (const auto &[a, b] : candidate_pairs(bodies, reach))
     {
       const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
-      if (law.law != ContactLaw::none)
+      const auto is_driven
+        = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
+      if (law.law != ContactLaw::none && !(is_driven(bodies[a]) && is_driven(bodies[b])))
         pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
     }
   return pairs;
@@ -170,17 +175,38 @@ Simulation<dim>::first_guess(const double time)
   using Vector     = typename Equilibrium<dim>::Vector;
   Vector unchanged = state.displacement;
   equilibrium->set_time(time, unchanged);
-  if (last_increment.size() == 0)
-    return unchanged;
-  const auto residual_of = [&](const Vector &u) {
-    Vector r(u);
-    equilibrium->residual(u, state.contact, r);
-    return r.l2_norm();
-  };
-  Vector extrapolated = state.displacement;
-  extrapolated.add(time - state.time, last_increment);
-  equilibrium->strong_supports().set(extrapolated, time);
-  return residual_of(extrapolated) < residual_of(unchanged) ? extrapolated : unchanged;
+  std::vector<Vector> guesses = {unchanged};
+  if (last_increment.size() != 0)
+    {
+      guesses.push_back(state.displacement);
+      guesses.back().add(time - state.time, last_increment);
+      equilibrium->set_prescribed(guesses.back());
+    }
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [](const Body<dim> &body) { return body.is_rigid(); }))
+    try
+      {
+        guesses.push_back(
+          linear_prediction<dim>(*equilibrium, state.contact, state.displacement, unchanged,
+                                 [&](const Vector &b, Vector &x) { solve_linear_system(b, x); }));
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The iteration starts without it.
+      }
+  unsigned int best     = 0;
+  double       smallest = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; guesses.size() > 1 && i < guesses.size(); ++i)
+    {
+      Vector r(unchanged);
+      equilibrium->residual(guesses[i], state.contact, r);
+      if (r.l2_norm() < smallest)
+        {
+          best     = i;
+          smallest = r.l2_norm();
+        }
+    }
+  return guesses[best];
 }
 
 template <int dim>
@@ -256,7 +282,8 @@ LinearSolveResult
 Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du)
 {
   const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points))
+  if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
+      && !equilibrium->has_free_rigid_bodies())
     try
       {
         const Timings::Scope scope(timings, "linear solver");
@@ -293,6 +320,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
     const auto solved = solve_linear_system(r, du);
     record.linear_iterations += solved.iterations;
+    equilibrium->shorten(du, grid.finest_size());
   };
   hooks.reference = [&]() {
     return std::max(equilibrium->force_scale(),

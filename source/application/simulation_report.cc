@@ -50,6 +50,12 @@ Simulation<dim>::report_set_up()
   const auto volumes = bulk->volumes();
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
+      if (bodies[b].is_rigid())
+        {
+          log.line("Body " + bodies[b].name + ": rigid, "
+                   + (bodies[b].rigid->is_free() ? "driven by forces" : "its motion prescribed"));
+          continue;
+        }
       log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
       require(volumes[b] > 0., bodies[b].path,
               "the body '" + bodies[b].name + "' has no volume on the grid",

@@ -31,6 +31,9 @@ BodyParameters<dim>::declare(ParameterSection &section)
       conditions.back().second.declare(subsection);
     }
   check_expression<dim>(section, "Body force", body_force, dim);
+  ParameterSection motion_section
+    = section.subsection("Motion", "How a rigid body moves. Components without a line stay.");
+  motion.declare(motion_section);
 }
 
 template <int dim>
@@ -56,42 +59,117 @@ declare_bodies(ParameterSection &section, const std::vector<std::string> &materi
   return bodies;
 }
 
+namespace
+{
+/** The part of `shape` inside `box`. @throws UserError if there is none */
+template <int dim>
+dealii::BoundingBox<dim>
+clipped(const dealii::BoundingBox<dim> &shape, const dealii::BoundingBox<dim> &box,
+        const BodyParameters<dim> &body)
+{
+  dealii::Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::max(shape.lower_bound(d), box.lower_bound(d));
+      upper[d] = std::min(shape.upper_bound(d), box.upper_bound(d));
+      require(lower[d] < upper[d], body.path,
+              "the body '" + body.name + "' lies outside the background box",
+              "move the body or enlarge Grid/Lower corner, Upper corner");
+    }
+  return dealii::BoundingBox<dim>({lower, upper});
+}
+
+/** The level set of a body around `box`. */
+template <int dim>
+Lattice<dim>
+level_set_of(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
+             const BodyParameters<dim> &body)
+{
+  Lattice<dim> level_set = make_lattice(shape, frame, margin, body.path + "/Shape");
+  for (std::size_t i = 0; i < level_set.values().size(); ++i)
+    if (!std::isfinite(level_set.values()[i]))
+      {
+        std::ostringstream where;
+        where << level_set.node(level_set.index(i));
+        throw UserError(body.path + "/Shape",
+                        "the level set is no finite number at the point " + where.str(),
+                        "check divisions, roots and logarithms of the expression");
+      }
+  return level_set;
+}
+
+template <int dim>
+void
+check_use(const BodyParameters<dim> &body, const bool is_rigid)
+{
+  if (!is_rigid)
+    {
+      require(!body.motion.is_given, body.path + "/Motion", "the body is not rigid",
+              "remove the section, or give the body a material with Law = rigid");
+      return;
+    }
+  require(body.conditions.empty(), body.path + "/Boundary conditions",
+          "a rigid body has no boundary conditions", "prescribe its motion in section Motion");
+  require(body.body_force == BodyParameters<dim>().body_force, body.path + "/Body force",
+          "a rigid body has no volume to act on", "give its weight as a force in section Motion");
+}
+
+/** The motion of a rigid body, with a coarse lattice of its whole shape for pictures. */
+template <int dim>
+std::shared_ptr<const RigidBody<dim>>
+make_rigid_body(const BodyParameters<dim> &body, const Shape<dim> &shape,
+                const dealii::BoundingBox<dim> &clipped_box)
+{
+  constexpr unsigned int         cells_of_picture = dim == 2 ? 80 : 32;
+  const dealii::BoundingBox<dim> whole            = shape.bounding_box();
+  // Unbounded directions end where the body is clipped.
+  constexpr double   far = 0.01 * Shape<dim>::unbounded;
+  dealii::Point<dim> lower, upper;
+  double             size = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = whole.lower_bound(d) > -far ? whole.lower_bound(d) : clipped_box.lower_bound(d);
+      upper[d] = whole.upper_bound(d) < far ? whole.upper_bound(d) : clipped_box.upper_bound(d);
+      size     = std::max(size, upper[d] - lower[d]);
+    }
+  const dealii::BoundingBox<dim> box({lower, upper});
+  const double                   spacing = size / cells_of_picture;
+  typename Lattice<dim>::Index   first, n_nodes;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      first[d]   = -1;
+      n_nodes[d] = static_cast<int>(std::ceil((upper[d] - lower[d]) / spacing)) + 3;
+    }
+  Lattice<dim> picture({lower, spacing, box}, first, n_nodes);
+  for (std::size_t i = 0; i < picture.values().size(); ++i)
+    picture.values()[i] = shape.signed_distance(picture.node(picture.index(i)));
+  return std::make_shared<RigidBody<dim>>(body.motion, box, picture);
+}
+} // namespace
+
 template <int dim>
 std::vector<Body<dim>>
 make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
             const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
             const LatticeFrame<dim> &frame, const double margin)
 {
+  LatticeFrame<dim> wide_frame = frame;
+  wide_frame.box.extend(margin);
   std::vector<Body<dim>> bodies;
   for (const auto &body : parameters)
     {
-      const ShapePointer<dim>        shape     = make_shape<dim>(body.shape);
-      const dealii::BoundingBox<dim> shape_box = shape->bounding_box();
-      dealii::Point<dim>             lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = std::max(shape_box.lower_bound(d), frame.box.lower_bound(d));
-          upper[d] = std::min(shape_box.upper_bound(d), frame.box.upper_bound(d));
-          require(lower[d] < upper[d], body.path,
-                  "the body '" + body.name + "' lies outside the background box",
-                  "move the body or enlarge Grid/Lower corner, Upper corner");
-        }
-      Lattice<dim> level_set = make_lattice(*shape, frame, margin, body.path + "/Shape");
-      for (std::size_t i = 0; i < level_set.values().size(); ++i)
-        if (!std::isfinite(level_set.values()[i]))
-          {
-            std::ostringstream where;
-            where << level_set.node(level_set.index(i));
-            throw UserError(body.path + "/Shape",
-                            "the level set is no finite number at the point " + where.str(),
-                            "check divisions, roots and logarithms of the expression");
-          }
+      const auto &material = materials.at(body.material);
+      const bool  is_rigid = material == nullptr;
+      check_use(body, is_rigid);
+      const ShapePointer<dim>        shape      = make_shape<dim>(body.shape);
+      const LatticeFrame<dim>       &body_frame = is_rigid ? wide_frame : frame;
+      const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
       bodies.push_back(
-        Body<dim>{body.name, body.path, level_set, dealii::BoundingBox<dim>({lower, upper}),
-                  materials.at(body.material),
+        Body<dim>{body.name, body.path, level_set_of(*shape, body_frame, margin, body), box,
+                  material, is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
                   Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
     }
   return bodies;

@@ -35,9 +35,13 @@ ContactPairParameters::declare(ParameterSection &section)
   section.entry("Friction coefficient", friction_coefficient, dealii::Patterns::Double(0.),
                 "Coulomb's mu; no dimension.");
   section.entry("Normal penalty factor", normal_factor, positive_number(),
-                "c_n in eps_n = c_n E/h with E = 2/(1/E_a + 1/E_b); no dimension.");
+                "c_n in eps_n = c_n E/h with E = 2/(1/E_a + 1/E_b), twice the modulus of the other "
+                "body for a rigid one; no dimension.");
   section.entry("Tangential penalty factor", tangential_factor, positive_number(),
                 "c_t in eps_t = c_t E/h; no dimension.");
+  section.entry("Penalty modulus", penalty_modulus, positive_number(),
+                "E of the penalties; default: from the moduli of the bodies. Needed between two "
+                "rigid bodies [force/L^2].");
   if (bodies.size() != 2)
     section.error("Bodies", "needs two names", "for example Bodies = block, *");
   if (law == ContactLaw::coulomb && std::isnan(friction_coefficient))

@@ -1,8 +1,8 @@
+#include <scree/base/exceptions.h>
 #include <scree/contact/contact_points.h>
 #include <scree/level_set/closest_point.h>
 
 #include <deal.II/base/utilities.h>
-#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,25 @@
 
 namespace scree
 {
+namespace
+{
+/** E of the penalties of a pair. A rigid body has 1/E = 0. */
+template <int dim>
+double
+modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
+{
+  if (!std::isnan(pair.law.penalty_modulus))
+    return pair.law.penalty_modulus;
+  require(!a.is_rigid() || !b.is_rigid(), "Contact/" + pair.law.name,
+          "contact between the rigid bodies '" + a.name + "' and '" + b.name
+            + "' needs a stiffness",
+          "set Penalty modulus, or Law = none for this pair");
+  const auto compliance
+    = [](const Body<dim> &body) { return body.is_rigid() ? 0. : 1. / body.material->young(); };
+  return 2. / (compliance(a) + compliance(b));
+}
+} // namespace
+
 template <int dim>
 ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
@@ -18,12 +37,38 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
-    pair_modulus.push_back(
-      2. / (1. / bodies[pair.a].material->young() + 1. / bodies[pair.b].material->young()));
+    pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
+  find_rigid_partners(fields, bodies);
   find_points(fields, level_set_nodes, bodies, shift);
   find_stencils(fields, bodies);
   contact_jumps.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
+}
+
+template <int dim>
+void
+ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
+                                        const std::vector<Body<dim>> &bodies)
+{
+  std::map<unsigned int, unsigned int> partner_of_body;
+  rigid_sides_of_pair.resize(contact_pairs.size());
+  for (unsigned int p = 0; p < contact_pairs.size(); ++p)
+    for (const auto &[b, sign] :
+         {std::make_pair(contact_pairs[p].a, -1.), std::make_pair(contact_pairs[p].b, 1.)})
+      {
+        const Body<dim> &body = bodies[b];
+        if (!body.is_rigid())
+          continue;
+        if (partner_of_body.emplace(b, rigid_partners.size()).second)
+          {
+            rigid_partners.push_back(
+              {b, body.rigid, fields.rigid_unknown(b), {}, RigidPose<dim>(*body.rigid, {}), {}});
+            for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+              if (body.rigid->is_free(m))
+                rigid_partners.back().free_components.push_back(m);
+          }
+        rigid_sides_of_pair[p].push_back({partner_of_body[b], sign});
+      }
 }
 
 template <int dim>
@@ -83,36 +128,52 @@ template <int dim>
 void
 ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
 {
-  const auto                      box = fields.grid.box();
-  std::vector<unsigned int>       of_body;
-  std::vector<dealii::Point<dim>> projected;
+  const auto                                     box = fields.grid.box();
+  std::vector<unsigned int>                      of_body;
+  std::vector<dealii::Point<dim>>                projected;
+  std::vector<std::array<dealii::Point<dim>, 2>> feet;
   for (const ContactPoint<dim> &point : contact_points)
-    for (const unsigned int body : {contact_pairs[point.pair].a, contact_pairs[point.pair].b})
-      {
-        dealii::Point<dim> foot
-          = project(bodies[body].level_set, point.position, fields.basis.degree).point;
-        for (unsigned int d = 0; d < dim; ++d)
-          foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
-        of_body.push_back(body);
-        projected.push_back(foot);
-      }
+    {
+      feet.emplace_back();
+      for (const unsigned int side : {0, 1})
+        {
+          const unsigned int body
+            = side == 0 ? contact_pairs[point.pair].a : contact_pairs[point.pair].b;
+          dealii::Point<dim> &foot = feet.back()[side];
+          foot = project(bodies[body].level_set, point.position, fields.basis.degree).point;
+          if (bodies[body].is_rigid())
+            continue;
+          for (unsigned int d = 0; d < dim; ++d)
+            foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
+          of_body.push_back(body);
+          projected.push_back(foot);
+        }
+    }
   const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
 
   std::vector<ContactPoint<dim>> kept;
+  auto                           stencil = stencils.begin();
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      if (stencils[2 * i].empty() || stencils[2 * i + 1].empty())
-        continue; // the surface ends here: one of the bodies is clipped by the box
+      const ContactPair         &pair = contact_pairs[contact_points[i].pair];
       std::map<DofIndex, double> jump;
-      for (const auto &[node, weight] : stencils[2 * i])
-        jump[node] -= weight;
-      for (const auto &[node, weight] : stencils[2 * i + 1])
-        jump[node] += weight;
+      bool                       is_found = true;
+      for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
+        if (!bodies[body].is_rigid())
+          {
+            is_found &= !stencil->empty();
+            for (const auto &[node, weight] : *stencil)
+              jump[node] += sign * weight;
+            ++stencil;
+          }
+      if (!is_found)
+        continue; // the surface ends here: one of the bodies is clipped by the box
       std::vector<DofIndex> nodes;
       for (const auto &[node, weight] : jump)
         nodes.push_back(node);
       const bool same
         = !groups.empty() && groups.back().n_nodes == nodes.size()
+          && kept.back().pair == contact_points[i].pair
           && std::equal(nodes.begin(), nodes.end(), group_nodes.begin() + groups.back().first_node);
       if (same)
         ++groups.back().n_points;
@@ -127,6 +188,8 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
       for (const auto &[node, weight] : jump)
         stencil_weights.push_back(weight);
       kept.push_back(contact_points[i]);
+      if (!rigid_partners.empty())
+        contact_feet.push_back(feet[i]);
     }
   contact_points = kept;
 }
@@ -167,9 +230,27 @@ ContactPoints<dim>::eps_t(const unsigned int point) const
 }
 
 template <int dim>
+typename RigidPose<dim>::Load
+ContactPoints<dim>::rigid_load(const unsigned int body) const
+{
+  for (const RigidPartner &partner : rigid_partners)
+    if (partner.body == body)
+      return partner.load;
+  return {};
+}
+
+template <int dim>
 void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
+  for (RigidPartner &partner : rigid_partners)
+    {
+      typename RigidPose<dim>::Unknowns q;
+      for (unsigned int m = 0; m < q.size(); ++m)
+        q[m] = u(partner.first_unknown + m);
+      partner.pose = RigidPose<dim>(*partner.rigid, q);
+      partner.load = {};
+    }
   std::vector<double> nodal;
   for (const Group &group : groups)
     {
@@ -177,7 +258,7 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
       for (unsigned int i = 0; i < group.n_nodes; ++i)
         for (unsigned int d = 0; d < dim; ++d)
           nodal[i * dim + d] = u(group_nodes[group.first_node + i] + d);
-      const double *weight = &stencil_weights[group.first_weight];
+      const double *weight = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
@@ -185,6 +266,10 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
           for (unsigned int i = 0; i < group.n_nodes; ++i)
             for (unsigned int d = 0; d < dim; ++d)
               jump[d] += weight[i] * nodal[i * dim + d];
+          for (const RigidSide &side : rigid_sides(group))
+            jump += side.sign
+                    * rigid_partners[side.partner].pose.displacement(
+                      contact_feet[p][side.sign < 0. ? 0 : 1]);
           const ContactPoint<dim> &point = contact_points[p];
           const auto              &law   = contact_pairs[point.pair].law;
           contact_jumps[p]               = jump;
@@ -192,8 +277,25 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
             = contact_response<dim>(law.law, law.friction_coefficient,
                                     {point.initial_gap, point.normal, jump, history.jump[p],
                                      history.tau[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+          for (const RigidSide &side : rigid_sides(group))
+            rigid_partners[side.partner].load.add(
+              contact_feet[p][side.sign < 0. ? 0 : 1]
+                - rigid_partners[side.partner].rigid->reference_point,
+              side.sign * point.weight * contact_responses[p].traction(point.normal));
         }
     }
+}
+
+template <int dim>
+std::vector<DofIndex>
+ContactPoints<dim>::unknowns(const Group &group) const
+{
+  std::vector<DofIndex> result
+    = unknowns_of_nodes<dim>(group_nodes.data() + group.first_node, group.n_nodes);
+  for (const RigidSide &side : rigid_sides(group))
+    for (const unsigned int m : rigid_partners[side.partner].free_components)
+      result.push_back(rigid_partners[side.partner].first_unknown + m);
+  return result;
 }
 
 template <int dim>
@@ -204,7 +306,7 @@ ContactPoints<dim>::add_to_residual(Vector &residual) const
   for (const Group &group : groups)
     {
       block.assign(group.n_nodes * dim, 0.);
-      const double *weight = &stencil_weights[group.first_weight];
+      const double *weight = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
@@ -214,7 +316,45 @@ ContactPoints<dim>::add_to_residual(Vector &residual) const
             for (unsigned int d = 0; d < dim; ++d)
               block[i * dim + d] += weight[i] * force[d];
         }
-      residual.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
+      residual.add(unknowns_of_nodes<dim>(group_nodes.data() + group.first_node, group.n_nodes),
+                   block);
+    }
+  for (const RigidPartner &partner : rigid_partners)
+    {
+      const auto force = partner.pose.generalised_force(partner.load);
+      for (unsigned int m = 0; m < force.size(); ++m)
+        residual.add({partner.first_unknown + m}, std::vector<double>{force[m]});
+    }
+}
+
+template <int dim>
+void
+ContactPoints<dim>::add_rigid_couplings(const Group &group, const unsigned int point,
+                                        const double                 *weight,
+                                        const dealii::Tensor<2, dim> &stiffness,
+                                        dealii::FullMatrix<double>   &block) const
+{
+  // The columns d[[u]]/dq of the rigid sides.
+  std::vector<dealii::Tensor<1, dim>> columns;
+  for (const RigidSide &side : rigid_sides(group))
+    {
+      const RigidPartner &partner = rigid_partners[side.partner];
+      const auto derivative = partner.pose.derivative(contact_feet[point][side.sign < 0. ? 0 : 1]);
+      for (const unsigned int m : partner.free_components)
+        columns.push_back(side.sign * derivative[m]);
+    }
+  const unsigned int first = group.n_nodes * dim;
+  for (unsigned int m = 0; m < columns.size(); ++m)
+    {
+      const dealii::Tensor<1, dim> right = stiffness * columns[m], left = columns[m] * stiffness;
+      for (unsigned int i = 0; i < group.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            block(i * dim + d, first + m) += weight[i] * right[d];
+            block(first + m, i * dim + d) += weight[i] * left[d];
+          }
+      for (unsigned int n = 0; n < columns.size(); ++n)
+        block(first + n, first + m) += columns[n] * right;
     }
 }
 
@@ -226,9 +366,10 @@ ContactPoints<dim>::add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &sti
   dealii::FullMatrix<double> block;
   for (const Group &group : groups)
     {
-      block.reinit(group.n_nodes * dim, group.n_nodes * dim);
+      const std::vector<DofIndex> indices = unknowns(group);
+      block.reinit(indices.size(), indices.size());
       bool          is_stiff = false;
-      const double *weight   = &stencil_weights[group.first_weight];
+      const double *weight   = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
@@ -241,9 +382,11 @@ ContactPoints<dim>::add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &sti
               for (unsigned int d = 0; d < dim; ++d)
                 for (unsigned int e = 0; e < dim; ++e)
                   block(i * dim + d, j * dim + e) += weight[i] * weight[j] * D[d][e];
+          if (indices.size() > group.n_nodes * dim)
+            add_rigid_couplings(group, p, weight, D, block);
         }
       if (is_stiff)
-        matrix.add(unknowns_of_nodes<dim>(&group_nodes[group.first_node], group.n_nodes), block);
+        matrix.add(indices, block);
     }
 }
 
@@ -256,6 +399,16 @@ ContactPoints<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
     if (contact_responses[p].status != ContactStatus::open)
       stiffness[p] = contact_points[p].weight * contact_responses[p].tangent;
   add_to_matrix(stiffness, matrix);
+  // -f . d2u/dq2
+  for (const RigidPartner &partner : rigid_partners)
+    {
+      const dealii::Tensor<2, 3> curvature = partner.pose.curvature(partner.load);
+      for (const unsigned int m : partner.free_components)
+        for (const unsigned int n : partner.free_components)
+          if (m >= dim && n >= dim)
+            matrix.add(partner.first_unknown + m, partner.first_unknown + n,
+                       -curvature[rotation_axis<dim>(m)][rotation_axis<dim>(n)]);
+    }
 }
 
 template <int dim>
@@ -325,8 +478,7 @@ ContactPoints<dim>::couplings() const
 {
   std::vector<std::vector<DofIndex>> result;
   for (const Group &group : groups)
-    result.emplace_back(group_nodes.begin() + group.first_node,
-                        group_nodes.begin() + group.first_node + group.n_nodes);
+    result.push_back(unknowns(group));
   return result;
 }
 

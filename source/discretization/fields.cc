@@ -21,9 +21,14 @@ Fields<dim>::Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &l
     , grid(grid)
     , n_multipliers(n_multipliers)
 {
+  for (const auto &body : bodies)
+    {
+      rigid_offset.push_back(n_rigid);
+      n_rigid += body.is_rigid() ? n_rigid_components<dim> : 0;
+    }
   classify(level_set_nodes, bodies);
   colour_bodies(bodies.size());
-  distribute(n_multipliers);
+  distribute();
   list_nodes();
   collect_constraints();
 }
@@ -43,7 +48,7 @@ Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
         for (unsigned int d = 0; d < dim; ++d)
           overlap &= cell.lower[d] < box.upper_bound(d) + cell.size
                      && cell.lower[d] + 2. * cell.size > box.lower_bound(d);
-        if (!overlap)
+        if (!overlap || bodies[b].is_rigid())
           continue;
         const CellLocation location = level_set_nodes.classify(c, bodies[b].level_set);
         if (location != CellLocation::outside)
@@ -113,7 +118,7 @@ Fields<dim>::colour_bodies(const unsigned int n_bodies)
 
 template <int dim>
 void
-Fields<dim>::distribute(const unsigned int n_multipliers)
+Fields<dim>::distribute()
 {
   const dealii::hp::FECollection<dim> elements(
     dealii::FESystem<dim>(dealii::FE_Q<dim>(basis.degree), dim),
@@ -140,7 +145,7 @@ Fields<dim>::distribute(const unsigned int n_multipliers)
         n_of_process[p] += counts[p];
       field_start.push_back(starts);
     }
-  n_of_process.back() += n_multipliers;
+  n_of_process.back() += n_trailing();
   DofIndex process_offset = 0, owned_begin = 0;
   for (unsigned int p = 0; p < n_ranks; ++p)
     {
@@ -205,8 +210,7 @@ Fields<dim>::list_nodes()
   relevant.erase(std::unique(relevant.begin(), relevant.end()), relevant.end());
   relevant_dofs = owned_dofs;
   relevant_dofs.add_indices(relevant.begin(), relevant.end());
-  for (unsigned int i = 0; i < n_multipliers; ++i)
-    relevant_dofs.add_index(multiplier(i));
+  relevant_dofs.add_range(n_dofs() - n_trailing(), n_dofs());
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <scree/material/linear_elastic.h>
 #include <scree/material/material.h>
 
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -9,6 +10,8 @@ namespace scree
 {
 namespace
 {
+const std::string rigid_law = "rigid";
+
 template <int dim>
 using Factory = std::function<std::unique_ptr<Material<dim>>(const MaterialParameters &)>;
 
@@ -26,6 +29,7 @@ registered_laws()
 {
   static const std::vector<std::pair<std::string, Factory<dim>>> laws = {
     {"linear elastic", construct<LinearElastic<dim>, dim>},
+    {rigid_law, [](const MaterialParameters &) { return nullptr; }},
   };
   return laws;
 }
@@ -42,6 +46,14 @@ std::vector<Problem>
 problems_of(const MaterialParameters &parameters)
 {
   std::vector<Problem> problems;
+  if (parameters.is_rigid())
+    {
+      for (const auto &[key, value] : {std::make_pair("Young's modulus", parameters.young),
+                                       std::make_pair("Poisson's ratio", parameters.poisson)})
+        if (!std::isnan(value))
+          problems.push_back({key, "a rigid material has none", "remove the line"});
+      return problems;
+    }
   // The negated comparisons are also true for NaN.
   if (!(parameters.young > 0))
     problems.push_back({"Young's modulus", "must be set to a number greater than 0",
@@ -56,12 +68,19 @@ problems_of(const MaterialParameters &parameters)
 }
 } // namespace
 
+bool
+MaterialParameters::is_rigid() const
+{
+  return law == rigid_law;
+}
+
 void
 MaterialParameters::declare(const ParameterSection &section)
 {
   law = section.choice("Law", law, material_laws(),
                        "Constitutive law. linear elastic: isotropic, small strain, plane strain in "
-                       "two dimensions.");
+                       "two dimensions. rigid: bodies of this material do not deform; they have no "
+                       "elastic constants and move as their section Motion says.");
   section.entry("Young's modulus", young, "E > 0 [force/length^2].");
   section.entry("Poisson's ratio", poisson, "nu, -1 < nu < 0.5 [-].");
   section.entry("Density", density,

@@ -7,6 +7,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Import.h>
 #include <Epetra_Vector.h>
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -27,18 +28,20 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , boundary_terms(boundary_terms)
     , contact(contact)
     , supports(fields, bodies)
+    , rigid(fields, bodies, contact)
+    , free(fields, bodies, supports, boundary_terms, contact)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
   for (Vector *vector :
-       {&loads, &dead_loads, &internal_forces, &contact_forces, &artificial_mass, &accepted_u,
-        &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
+       {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass,
+        &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(region.points.size());
   accepted_displacements = accepted_tractions;
-  find_free_bodies();
+  set_up_artificial_mass();
 }
 
 template <int dim>
@@ -49,9 +52,8 @@ Equilibrium<dim>::set_up_matrices()
   const auto     of_bulk      = bulk.couplings();
   const auto     of_contact   = contact.couplings();
   ghosted_dofs                = fields.relevant();
-  for (const auto &nodes : of_contact)
-    for (const DofIndex node : nodes)
-      ghosted_dofs.add_range(node, node + dim);
+  for (const auto &unknowns : of_contact)
+    ghosted_dofs.add_indices(unknowns.begin(), unknowns.end());
   ghosted_dofs.compress();
 
   dealii::DynamicSparsityPattern pattern(fields.n_dofs(), fields.n_dofs(), ghosted_dofs);
@@ -60,12 +62,10 @@ Equilibrium<dim>::set_up_matrices()
       unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
   // Contact stencils have no hanging nodes, but may have nodes that are not relevant here
   // otherwise.
-  for (const auto &nodes : of_contact)
-    {
-      const auto unknowns = unknowns_of_nodes<dim>(nodes.data(), nodes.size());
+  for (const auto &list : {of_contact, rigid.couplings()})
+    for (const auto &unknowns : list)
       for (const DofIndex row : unknowns)
         pattern.add_entries(row, unknowns.begin(), unknowns.end(), true);
-    }
   for (const auto &unknowns : boundary_terms.multiplier_couplings())
     fields.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
   for (const DofIndex index : fields.owned())
@@ -84,49 +84,31 @@ Equilibrium<dim>::set_up_matrices()
 }
 
 template <int dim>
-dealii::FullMatrix<double>
-Equilibrium<dim>::resistance_of_supports(const unsigned int       body,
-                                         const RigidMotions<dim> &motions) const
-{
-  dealii::FullMatrix<double> held = motions.no_resistance();
-  for (const auto &unknown : supports.unknowns())
-    if (supports.conditions()[unknown.support].first == body)
-      motions.add_resistance(unknown.position, unknown.component, 1., held);
-  for (const auto &region : boundary_terms.regions())
-    {
-      const ConditionType type = region.condition->parameters.type;
-      if (region.body != body || type == ConditionType::traction || type == ConditionType::pressure)
-        continue;
-      for (const auto &point : region.points)
-        for (const unsigned int component : region.condition->components)
-          {
-            if (component < dim)
-              motions.add_resistance(point.position, component, 1., held);
-            else
-              motions.add_rotation_resistance(1., held);
-          }
-    }
-  return held;
-}
-
-template <int dim>
 void
-Equilibrium<dim>::find_free_bodies()
+Equilibrium<dim>::set_up_artificial_mass()
 {
   std::vector<double> factors(bodies.size(), 0.);
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      const RigidMotions<dim>    motions(bodies[b]);
-      dealii::FullMatrix<double> held   = resistance_of_supports(b, motions);
-      const unsigned int         n_free = motions.n_free(held, fields.grid.communicator());
-      if (n_free == 0)
-        continue;
-      free_motions.push_back({b, n_free});
-      factors[b] = artificial_mass_factor * bodies[b].material->young()
-                   / (motions.length() * motions.length());
-    }
+  for (const FreeMotion &free : free_bodies())
+    if (!bodies[free.body].is_rigid())
+      {
+        const double length = RigidMotions<dim>(bodies[free.body]).length();
+        factors[free.body]
+          = artificial_mass_factor * bodies[free.body].material->young() / (length * length);
+      }
   bulk.add_lumped_volumes(artificial_mass, factors);
   artificial_mass.compress(dealii::VectorOperation::add);
+  for (const FreeMotion &free : free_bodies())
+    if (bodies[free.body].is_rigid())
+      {
+        const double mass = artificial_mass_factor * rigid.stiffness_scale(free.body);
+        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+          if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
+            artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
+      }
+  // Rows without any other entry.
+  for (const DofIndex index : rigid.prescribed())
+    artificial_mass(index) = largest_stiffness;
+  artificial_mass.compress(dealii::VectorOperation::insert);
 }
 
 template <int dim>
@@ -142,7 +124,49 @@ Equilibrium<dim>::set_time(const double new_time, Vector &u)
   boundary_terms.add_loads(loads, time, false, true);
   loads.compress(dealii::VectorOperation::add);
   loads += dead_loads;
+  set_prescribed(u);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_prescribed(Vector &u) const
+{
   supports.set(u, time);
+  rigid.set(u, time);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_zero_on_prescribed(Vector &r) const
+{
+  supports.set_zero(r);
+  for (const DofIndex index : rigid.prescribed())
+    r(index) = 0.;
+  r.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::has_free_rigid_bodies() const
+{
+  return std::any_of(free_bodies().begin(), free_bodies().end(),
+                     [&](const FreeMotion &motion) { return bodies[motion.body].is_rigid(); });
+}
+
+template <int dim>
+void
+Equilibrium<dim>::shorten(Vector &du, const double length) const
+{
+  double largest = 0.;
+  if (has_free_rigid_bodies())
+    for (const unsigned int body : bodies_not_held())
+      if (bodies[body].is_rigid())
+        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+          if (fields.owned().is_element(fields.rigid_unknown(body) + m))
+            largest = std::max(largest, std::abs(du(fields.rigid_unknown(body) + m)));
+  largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+  if (largest > length)
+    du *= length / largest;
 }
 
 template <int dim>
@@ -155,11 +179,13 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
   contact_forces.compress(dealii::VectorOperation::add);
+  rigid.applied(ghosted, time, applied_forces);
   stiffness.vmult(internal_forces, u);
   r = loads;
   r -= internal_forces;
   r += contact_forces;
-  supports.set_zero(r);
+  r += applied_forces;
+  set_zero_on_prescribed(r);
   for (const auto &line : fields.hanging_constraints().get_lines())
     if (fields.owned().is_element(line.index))
       r(line.index) = 0.;
@@ -172,6 +198,7 @@ Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
   contact.add_to_matrix(newton_matrix);
+  rigid.add_to_matrix(ghosted, time, newton_matrix);
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);
@@ -206,10 +233,9 @@ template <int dim>
 void
 Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
 {
-  if (!free_motions.empty())
-    for (const DofIndex index : fields.owned())
-      if (artificial_mass(index) != 0.)
-        matrix.add(index, index, artificial_mass(index));
+  for (const DofIndex index : fields.owned())
+    if (artificial_mass(index) != 0.)
+      matrix.add(index, index, artificial_mass(index));
 }
 
 template <int dim>
@@ -221,6 +247,8 @@ Equilibrium<dim>::eliminate_prescribed(Matrix &matrix) const
   Epetra_Vector owned(epetra.RowMap()), columns(epetra.ColMap());
   for (const auto &unknown : supports.unknowns())
     owned[epetra.RowMap().LID(static_cast<int>(unknown.index))] = 1.;
+  for (const DofIndex index : rigid.prescribed())
+    owned[epetra.RowMap().LID(static_cast<int>(index))] = 1.;
   const Epetra_Import import(epetra.ColMap(), epetra.RowMap());
   columns.Import(owned, import, Insert);
   for (int row = 0; row < epetra.NumMyRows(); ++row)
@@ -243,6 +271,7 @@ Equilibrium<dim>::is_symmetric() const
   for (const auto &response : contact.responses())
     is_symmetric &= response.is_symmetric;
   return boundary_terms.is_symmetric() && !boundary_terms.has_multipliers()
+         && rigid.is_symmetric(time)
          && dealii::Utilities::MPI::max(static_cast<unsigned int>(!is_symmetric),
                                         fields.grid.communicator())
               == 0;
@@ -255,6 +284,7 @@ Equilibrium<dim>::reactions(Vector &result) const
   result = internal_forces;
   result -= contact_forces;
   result -= loads;
+  result -= applied_forces;
 }
 
 template <int dim>
@@ -263,7 +293,7 @@ Equilibrium<dim>::force_scale() const
 {
   Vector all(internal_forces);
   reactions(all);
-  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr();
+  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr();
   double held    = 0.;
   for (const auto &unknown : supports.unknowns())
     held += all(unknown.index) * all(unknown.index);
@@ -287,60 +317,9 @@ template <int dim>
 std::vector<typename Equilibrium<dim>::Vector>
 Equilibrium<dim>::rigid_motions() const
 {
-  const unsigned int             n_motions = RigidMotions<dim>::n_motions;
-  std::vector<Vector>            result(bodies.size() * n_motions,
-                                        Vector(fields.owned(), fields.grid.communicator()));
-  std::vector<RigidMotions<dim>> motions;
-  for (const auto &body : bodies)
-    motions.emplace_back(body);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-        {
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
-          for (unsigned int m = 0; m < n_motions; ++m)
-            {
-              const auto value = motions[cell.body].motion(m, position);
-              for (unsigned int d = 0; d < dim; ++d)
-                if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                  result[cell.body * n_motions + m](fields.nodes(a)[i] + d) = value[d];
-            }
-        }
-    }
+  std::vector<Vector> result = near_null_space(fields, bodies);
   for (Vector &motion : result)
-    {
-      motion.compress(dealii::VectorOperation::insert);
-      supports.set_zero(motion);
-    }
-  return result;
-}
-
-template <int dim>
-std::vector<unsigned int>
-Equilibrium<dim>::bodies_not_held() const
-{
-  std::vector<unsigned int> result;
-  for (const FreeMotion &free : free_motions)
-    {
-      const RigidMotions<dim> motions(bodies[free.body]);
-      auto                    held = resistance_of_supports(free.body, motions);
-      for (unsigned int i = 0; i < contact.points().size(); ++i)
-        {
-          const auto &point = contact.points()[i];
-          const auto &pair  = contact.pairs()[point.pair];
-          if ((pair.a != free.body && pair.b != free.body) || contact.responses()[i].pressure == 0.)
-            continue;
-          motions.add_resistance(point.position, point.normal, 1., held);
-          if (contact.responses()[i].status == ContactStatus::stick)
-            for (unsigned int d = 0; d < dim; ++d)
-              motions.add_resistance(point.position, d, 1., held);
-        }
-      if (motions.n_free(held, fields.grid.communicator()) > 0)
-        result.push_back(free.body);
-    }
+    supports.set_zero(motion);
   return result;
 }
 
@@ -361,6 +340,10 @@ Equilibrium<dim>::largest_displacements(const Vector &u) const
         largest         = std::max(largest, displacement.norm());
       }
   dealii::Utilities::MPI::max(result, fields.grid.communicator(), result);
+  const Vector with_ghost_values = with_ghosts(u);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      result[b] = rigid.largest_displacement(b, with_ghost_values);
   return result;
 }
 
@@ -429,6 +412,9 @@ Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghos
       const double motion = u(unknown.index) - accepted_u(unknown.index);
       work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
     }
+  // What drives the rigid bodies: applied forces, or the reactions of prescribed components.
+  forces += applied_forces;
+  work += rigid.work(u, accepted_u, forces, accepted_reactions);
   accepted_reactions = forces;
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {

@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 #include <deal.II/numerics/data_component_interpretation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -108,6 +109,75 @@ kuhn_simplices()
     return {{0, 1, 3}, {0, 3, 2}};
   return {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 }
+/** The simplices that make up the part {phi < 0} of a box with the given corners. */
+template <int dim>
+std::vector<std::vector<dealii::Point<dim>>>
+clip_box(const std::vector<dealii::Point<dim>> &corners, const std::vector<double> &phi)
+{
+  std::vector<std::vector<dealii::Point<dim>>> simplices;
+  for (const auto &simplex : kuhn_simplices<dim>())
+    {
+      std::vector<dealii::Point<dim>> vertices;
+      std::vector<double>             values;
+      for (const unsigned int v : simplex)
+        {
+          vertices.push_back(corners[v]);
+          values.push_back(phi[v]);
+        }
+      clip_simplex<dim>(vertices, values, simplices);
+    }
+  return simplices;
+}
+
+/** Names of the fields, one per row of a patch. */
+template <int dim>
+std::vector<std::string>
+field_names()
+{
+  std::vector<std::string>       names(dim, "displacement");
+  const std::vector<std::string> axes = {"x", "y", "z"};
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      names.push_back("stress_" + axes[i] + axes[j]);
+  if (dim == 2)
+    names.push_back("stress_zz");
+  names.push_back("von_mises");
+  for (unsigned int d = 0; d < dim; ++d)
+    names.push_back("principal_stress_" + std::to_string(d + 1));
+  names.push_back("body");
+  return names;
+}
+
+/** A piece with the given vertices and what `sample(v)` finds there. */
+template <int dim, typename Sample>
+dealii::DataOutBase::Patch<dim, dim>
+make_patch(const std::vector<dealii::Point<dim>> &vertices, const unsigned int body,
+           const Sample &sample)
+{
+  dealii::DataOutBase::Patch<dim, dim> patch;
+  patch.reference_cell = vertices.size() == dim + 1 ? dealii::ReferenceCells::get_simplex<dim>()
+                                                    : dealii::ReferenceCells::get_hypercube<dim>();
+  patch.n_subdivisions = 1;
+  patch.data.reinit(field_names<dim>().size(), vertices.size());
+  for (unsigned int v = 0; v < vertices.size(); ++v)
+    {
+      patch.vertices[v]           = vertices[v];
+      const BulkSample<dim> found = sample(v);
+      unsigned int          row   = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        patch.data(row++, v) = found.displacement[d];
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          patch.data(row++, v) = found.stress[i][j];
+      if (dim == 2)
+        patch.data(row++, v) = found.out_of_plane_stress;
+      patch.data(row++, v) = von_mises(found.stress, found.out_of_plane_stress);
+      for (const double principal : eigenvalues(found.stress))
+        patch.data(row++, v) = principal;
+      patch.data(row++, v) = body;
+    }
+  return patch;
+}
 } // namespace
 
 template <int dim>
@@ -127,7 +197,12 @@ template <int dim>
 BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                             const std::vector<Body<dim>> &bodies)
     : fields(fields)
+    , bodies(bodies)
 {
+  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_rigid())
+        cut_rigid_body(b);
   std::array<double, max_nodes_per_cell<dim>> values;
   std::vector<double>                         scaled(max_nodes_per_cell<dim>);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
@@ -167,20 +242,39 @@ BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<doub
           corners.push_back(basis.node(node));
           corner_phi.push_back(phi[node]);
         }
-      std::vector<std::vector<dealii::Point<dim>>> simplices;
-      for (const auto &simplex : kuhn_simplices<dim>())
-        {
-          std::vector<dealii::Point<dim>> vertices;
-          std::vector<double>             values;
-          for (const unsigned int v : simplex)
-            {
-              vertices.push_back(corners[v]);
-              values.push_back(corner_phi[v]);
-            }
-          clip_simplex<dim>(vertices, values, simplices);
-        }
-      for (const auto &vertices : simplices)
+      for (const auto &vertices : clip_box(corners, corner_phi))
         pieces.push_back({active_cell, vertices});
+    }
+}
+
+template <int dim>
+void
+BodyOutput<dim>::cut_rigid_body(const unsigned int body)
+{
+  const Lattice<dim> &lattice = bodies[body].rigid->picture;
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    {
+      std::vector<dealii::Point<dim>> corners;
+      std::vector<double>             phi;
+      for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+        {
+          auto node = lattice.index(i);
+          for (unsigned int d = 0; d < dim; ++d)
+            node[d] += (v >> d) & 1u;
+          if (!lattice.contains(node))
+            break;
+          corners.push_back(lattice.node(node));
+          phi.push_back(lattice(node));
+        }
+      if (corners.size() < dealii::GeometryInfo<dim>::vertices_per_cell)
+        continue;
+      const unsigned int n_inside
+        = std::count_if(phi.begin(), phi.end(), [](const double value) { return value < 0.; });
+      if (n_inside == corners.size())
+        rigid_pieces.push_back({body, corners});
+      else if (n_inside > 0)
+        for (const auto &vertices : clip_box(corners, phi))
+          rigid_pieces.push_back({body, vertices});
     }
 }
 
@@ -191,50 +285,31 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   Patches<dim> output;
-  for (unsigned int d = 0; d < dim; ++d)
-    output.names.push_back("displacement");
-  const std::vector<std::string> axes = {"x", "y", "z"};
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      output.names.push_back("stress_" + axes[i] + axes[j]);
-  if (dim == 2)
-    output.names.push_back("stress_zz");
-  output.names.push_back("von_mises");
-  for (unsigned int d = 0; d < dim; ++d)
-    output.names.push_back("principal_stress_" + std::to_string(d + 1));
-  output.names.push_back("body");
+  output.names   = field_names<dim>();
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
 
   for (const Piece &piece : pieces)
     {
-      dealii::DataOutBase::Patch<dim, dim> patch;
-      const ActiveCell                    &cell     = fields.cells()[piece.active_cell];
-      const auto                          &geometry = fields.grid.cells()[cell.grid_cell];
-      patch.reference_cell                          = piece.vertices.size() == dim + 1
-                                                        ? dealii::ReferenceCells::get_simplex<dim>()
-                                                        : dealii::ReferenceCells::get_hypercube<dim>();
-      patch.n_subdivisions                          = 1;
-      patch.patch_index                             = output.patches.size();
-      patch.data.reinit(output.names.size(), piece.vertices.size());
-      for (unsigned int v = 0; v < piece.vertices.size(); ++v)
-        {
-          patch.vertices[v]
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(piece.vertices[v]);
-          const auto   sample = bulk.sample(piece.active_cell, piece.vertices[v], u);
-          unsigned int row    = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            patch.data(row++, v) = sample.displacement[d];
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = i; j < dim; ++j)
-              patch.data(row++, v) = sample.stress[i][j];
-          if (dim == 2)
-            patch.data(row++, v) = sample.out_of_plane_stress;
-          patch.data(row++, v) = von_mises(sample.stress, sample.out_of_plane_stress);
-          for (const double principal : eigenvalues(sample.stress))
-            patch.data(row++, v) = principal;
-          patch.data(row++, v) = cell.body;
-        }
-      output.patches.push_back(patch);
+      const ActiveCell               &cell     = fields.cells()[piece.active_cell];
+      const auto                     &geometry = fields.grid.cells()[cell.grid_cell];
+      std::vector<dealii::Point<dim>> vertices;
+      for (const auto &vertex : piece.vertices)
+        vertices.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(vertex));
+      output.patches.push_back(make_patch<dim>(vertices, cell.body, [&](const unsigned int v) {
+        return bulk.sample(piece.active_cell, piece.vertices[v], u);
+      }));
+      output.patches.back().patch_index = output.patches.size() - 1;
+    }
+  for (const RigidPiece &piece : rigid_pieces)
+    {
+      const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
+      output.patches.push_back(
+        make_patch<dim>(piece.vertices, piece.body, [&](const unsigned int v) {
+          BulkSample<dim> sample;
+          sample.displacement = pose.displacement(piece.vertices[v]);
+          return sample;
+        }));
+      output.patches.back().patch_index = output.patches.size() - 1;
     }
   dealii::DataOutBase::VtkFlags flags;
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;

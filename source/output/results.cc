@@ -21,6 +21,18 @@ add_resultant_names(const std::string &prefix, std::vector<std::string> &names)
     names.push_back(prefix + ".moment_" + axes[d]);
 }
 
+/** Column names of where a rigid body is and what drives it. */
+template <int dim>
+void
+add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    names.push_back(prefix + ".displacement_" + axes[d]);
+  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+    names.push_back(prefix + ".rotation_" + axes[d]);
+  add_resultant_names<dim>(prefix, names);
+}
+
 template <int dim>
 void
 add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &moment,
@@ -63,7 +75,11 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   for (const std::string &condition : equilibrium.condition_names())
     add_resultant_names<dim>(condition, names);
   for (const auto &body : bodies)
-    names.push_back(body.name + ".volume");
+    if (body.is_rigid())
+      add_rigid_names<dim>(body.name, names);
+  for (const auto &body : bodies)
+    if (!body.is_rigid())
+      names.push_back(body.name + ".volume");
   for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
                                    "external_work", "balance_error"})
     names.push_back("energy." + energy);
@@ -122,8 +138,15 @@ Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &eq
     }
   for (const auto &resultant : equilibrium.resultants(u))
     add_resultant<dim>(resultant.force, resultant.moment, values);
-  for (const double volume : bulk.volumes())
-    values.push_back(volume);
+  for (const auto &state : equilibrium.rigid_bodies().states(equilibrium.with_ghosts(u)))
+    {
+      add_resultant<dim>(state.displacement, state.rotation, values);
+      add_resultant<dim>(state.force, state.moment, values);
+    }
+  const std::vector<double> volumes = bulk.volumes();
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid())
+      values.push_back(volumes[b]);
   const Energies &energies = equilibrium.energies();
   for (const double energy :
        {energies.strain, energies.ghost_penalty, energies.boundary, energies.contact,

@@ -1,3 +1,4 @@
+#include <scree/solver/bordered_preconditioner.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/mumps.h>
 
@@ -76,14 +77,14 @@ relative_residual(const LinearSolver::Matrix &A, const LinearSolver::Vector &x,
  * translations of unknowns that are numbered node by node.
  */
 void
-initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matrix &A,
+initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const Epetra_CrsMatrix &A,
                const std::vector<LinearSolver::Vector> &modes, const unsigned int dimension,
                const LinearSolverParameters &parameters, const bool smooth_by_ilu)
 {
-  const Epetra_Map &rows = A.trilinos_matrix().RowMap();
+  const Epetra_Map &rows = A.RowMap();
   // ML needs whole nodes on every process.
-  const bool whole_nodes = dealii::Utilities::MPI::min(
-    rows.NumMyElements() % dimension == 0 ? 1 : 0, A.get_mpi_communicator());
+  int has_whole_nodes = rows.NumMyElements() % dimension == 0, whole_nodes = 0;
+  rows.Comm().MinAll(&has_whole_nodes, &whole_nodes, 1);
 
   Teuchos::ParameterList list;
   ML_Epetra::SetDefaults("SA", list);
@@ -106,7 +107,7 @@ initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matri
 
   Epetra_MultiVector null_space(rows, std::max<int>(1, modes.size()));
   for (unsigned int k = 0; k < modes.size(); ++k)
-    std::copy(modes[k].begin(), modes[k].end(), null_space[k]);
+    std::copy(modes[k].begin(), modes[k].begin() + rows.NumMyElements(), null_space[k]);
   if (!modes.empty())
     {
       list.set("null space: type", "pre-computed");
@@ -341,6 +342,12 @@ LinearSolver::set_near_null_space(const std::vector<Vector> &modes)
   near_null_space = modes;
 }
 
+void
+LinearSolver::set_border(const unsigned int n_unknowns)
+{
+  n_border = n_unknowns;
+}
+
 bool
 LinearSolver::is_direct(const std::size_t n_unknowns) const
 {
@@ -417,14 +424,30 @@ LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
   SolverControl control(parameters.max_iterations, parameters.tolerance * b.l2_norm());
   try
     {
+      const auto iterate = [&](const auto &preconditioner) {
+        if (cg)
+          SolverCG<Vector>(control).solve(A, x, b, preconditioner);
+        else
+          // Preconditioned from the right, the iteration watches the true residual.
+          SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
+            .solve(A, x, b, preconditioner);
+      };
       TrilinosWrappers::PreconditionAMG amg;
-      initialize_amg(amg, A, near_null_space, dimension, parameters, smooth_by_ilu);
-      if (cg)
-        SolverCG<Vector>(control).solve(A, x, b, amg);
+      const auto                        initialize = [&](const Epetra_CrsMatrix &matrix) {
+        initialize_amg(amg, matrix, near_null_space, dimension, parameters, smooth_by_ilu);
+      };
+      if (n_border == 0)
+        {
+          initialize(A.trilinos_matrix());
+          iterate(amg);
+        }
       else
-        // Preconditioned from the right, the iteration watches the true residual.
-        SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
-          .solve(A, x, b, amg);
+        {
+          BorderedPreconditioner bordered(A.trilinos_matrix(), n_border);
+          initialize(bordered.inner_matrix());
+          bordered.set_inner(amg.trilinos_operator());
+          iterate(bordered);
+        }
     }
   catch (const SolverControl::NoConvergence &)
     {

@@ -51,9 +51,8 @@ displacement(const CutBodies<dim> &model, const ContactPoints<dim> &contact,
     }
   owned.compress(VectorOperation::insert);
   IndexSet relevant = fields.relevant();
-  for (const auto &nodes : contact.couplings())
-    for (const DofIndex node : nodes)
-      relevant.add_range(node, node + dim);
+  for (const auto &unknowns : contact.couplings())
+    relevant.add_indices(unknowns.begin(), unknowns.end());
   relevant.compress();
   Vector result(fields.owned(), relevant, MPI_COMM_WORLD);
   result = owned;

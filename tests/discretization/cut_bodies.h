@@ -118,17 +118,27 @@ degree_text(const unsigned int degree, const double ghost_penalty = 0.1)
          + "\n set Ghost penalty = " + std::to_string(ghost_penalty) + "\nend\n";
 }
 
-/** Sections Materials (E = 1000, nu = 0.3) and Bodies. */
+/** Material and subsection Motion of a rigid body. */
+inline std::string
+motion_text(const std::string &lines)
+{
+  return "  set Material = rigid\n  subsection Motion\n" + lines + "\n  end\n";
+}
+
+/** Sections Materials (E = 1000, nu = 0.3; rigid) and Bodies, which are soft if they do not say. */
 inline std::string
 bodies_text(const std::vector<std::pair<std::string, std::string>> &bodies)
 {
-  std::string text = "subsection Materials\n set Names = soft\n subsection soft\n"
-                     "  set Young's modulus = 1000\n  set Poisson's ratio = 0.3\n end\nend\n"
+  std::string text = "subsection Materials\n set Names = soft, rigid\n subsection soft\n"
+                     "  set Young's modulus = 1000\n  set Poisson's ratio = 0.3\n end\n"
+                     " subsection rigid\n  set Law = rigid\n end\nend\n"
                      "subsection Bodies\n set Names = ";
   for (unsigned int i = 0; i < bodies.size(); ++i)
     text += (i > 0 ? ", " : "") + bodies[i].first;
   for (const auto &[name, content] : bodies)
-    text += "\n subsection " + name + "\n  set Material = soft\n" + content + "\n end";
+    text += "\n subsection " + name + "\n"
+            + (content.find("Material") == std::string::npos ? "  set Material = soft\n" : "")
+            + content + "\n end";
   return text + "\nend\n";
 }
 

@@ -61,6 +61,7 @@ struct EquilibriumModel
       , state(initial_state(*cut.fields, contact))
   {
     linear_solver.set_near_null_space(equilibrium.rigid_motions());
+    linear_solver.set_border(cut.fields->n_trailing());
   }
 
   std::vector<ContactPair> contact_pairs() const
@@ -83,6 +84,7 @@ struct EquilibriumModel
     hooks.solve    = [&](const Vector &, const Vector &r, Vector &du) {
       linear_iterations
         = linear_solver.solve(equilibrium.tangent(), du, r, equilibrium.is_symmetric()).iterations;
+      equilibrium.shorten(du, cut.grid.finest_size());
     };
     hooks.reference = [&]() {
       return std::max(equilibrium.force_scale(),

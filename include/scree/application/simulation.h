@@ -78,7 +78,9 @@ private:
   void                     set_up();
   std::vector<ContactPair> find_pairs() const;
   void                     report_set_up();
-  /** Of the old displacements and their extrapolation in time, the one with the smaller residual.
+  /**
+   * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
+   * prediction, the one with the smallest residual.
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   bool                              solve_step(const double time);

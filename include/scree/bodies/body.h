@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/bodies/boundary_condition.h>
+#include <scree/bodies/rigid_body.h>
 #include <scree/geometry/shape.h>
 #include <scree/level_set/lattice.h>
 #include <scree/material/material.h>
@@ -25,6 +26,7 @@ struct BodyParameters
   std::string          body_force = dim == 2 ? "0; 0" : "0; 0; 0";
   /** Named boundary conditions with their section paths. */
   std::vector<std::pair<std::string, BoundaryConditionParameters<dim>>> conditions;
+  MotionParameters<dim>                                                 motion; //!< of a rigid body
 
   void declare(ParameterSection &section);
 };
@@ -35,24 +37,32 @@ std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &
                                                 const std::vector<std::string> &material_names);
 
 /**
- * A deformable body: its level set (negative inside, nodal values on a lattice), its material and
- * what acts on it. The geometry is the initial one.
+ * A body: its level set (negative inside, nodal values on a lattice), its material and what acts on
+ * it. The geometry is the initial one. A rigid body has no material but a motion.
  */
 template <int dim>
 struct Body
 {
-  std::string                          name;
-  std::string                          path; //!< section path, for messages
-  Lattice<dim>                         level_set;
-  dealii::BoundingBox<dim>             box; //!< of the body, clipped by the background box [L]
-  std::shared_ptr<const Material<dim>> material;
-  Expression<dim>                      body_force; //!< force per volume
-  std::vector<BoundaryCondition<dim>>  conditions;
+  std::string                           name;
+  std::string                           path; //!< section path, for messages
+  Lattice<dim>                          level_set;
+  dealii::BoundingBox<dim>              box; //!< of the body, clipped by the background box [L]
+  std::shared_ptr<const Material<dim>>  material;
+  std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
+  Expression<dim>                       body_force; //!< force per volume
+  std::vector<BoundaryCondition<dim>>   conditions;
+
+  bool is_rigid() const
+  {
+    return rigid != nullptr;
+  }
 };
 
 /**
- * Builds the bodies: shape -> lattice, with `margin` [L] around the shape.
- * @throws UserError if a body lies outside the background box or names an unknown material
+ * Builds the bodies: shape -> lattice, with `margin` [L] around the shape. Rigid bodies may lie
+ * within the margin around the background box, deformable ones are clipped by it.
+ * @throws UserError if a body lies outside the background box, a rigid body has boundary conditions
+ * or a body force, or a deformable one a motion
  */
 template <int dim>
 std::vector<Body<dim>>

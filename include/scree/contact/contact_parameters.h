@@ -18,6 +18,8 @@ struct ContactPairParameters
   double                   friction_coefficient = std::numeric_limits<double>::quiet_NaN();
   double                   normal_factor        = 10.; //!< c_n in eps_n = c_n E/h
   double                   tangential_factor    = 10.; //!< c_t in eps_t = c_t E/h
+  /** E of the penalties [force/L^2]; NaN: from the materials */
+  double penalty_modulus = std::numeric_limits<double>::quiet_NaN();
 
   void declare(ParameterSection &section);
 

@@ -4,9 +4,12 @@
 #include <scree/discretization/cut_quadrature.h>
 #include <scree/solver/condensed_solver.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,9 @@ struct ContactPoint
  * background cells, as a flat list of points with the stencil of their displacement jump
  * [[u]] = sum_i w_i u(node_i) (method.md section 8). A process holds the points of its cells.
  *
+ * A rigid body moves its side of a point by its pose: the unknowns of the free components take the
+ * place of the nodes, with the derivatives of a finite rotation.
+ *
  * Consecutive points with the same nodes form a group, so that a group is one dense block of the
  * matrix.
  */
@@ -54,7 +60,10 @@ class ContactPoints
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  /** @param shift bound on phi on the contact surface [L] */
+  /**
+   * @param shift bound on phi on the contact surface [L]
+   * @throws UserError if two rigid bodies have no penalty modulus
+   */
   ContactPoints(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                 const double shift);
@@ -96,6 +105,15 @@ public:
     return contact_points[point].initial_gap + contact_points[point].normal * contact_jumps[point];
   }
 
+  /** The E of a pair's penalties [force/area]. */
+  double modulus(const unsigned int pair) const
+  {
+    return pair_modulus[pair];
+  }
+
+  /** Contact forces of the last evaluation on a rigid body, of the points of this process. */
+  typename RigidPose<dim>::Load rigid_load(const unsigned int body) const;
+
   /** Penalties eps_n, eps_t of a point [force/area/L]. */
   double eps_n(const unsigned int point) const;
   double eps_t(const unsigned int point) const;
@@ -115,12 +133,13 @@ public:
   /** E = D - D_0: the derivative of R_contact is B^T (D_0 + E) B; blocks row by row. */
   std::vector<double> tangent_changes() const;
 
-  /** The nodes of each group: what couples in the matrix. */
+  /** The unknowns of each group, ascending: what couples in the matrix. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
 private:
   void find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                    const std::vector<Body<dim>> &bodies, const double shift);
+  void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
 
   /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
@@ -128,16 +147,47 @@ private:
                                        dealii::TrilinosWrappers::SparseMatrix    &matrix) const;
   dealii::Tensor<2, dim> glued_tangent(const unsigned int point) const;
 
+  /** Points of a pair with the same nodes. */
   struct Group
   {
     unsigned int first_point, n_points, first_node, n_nodes, first_weight;
   };
 
+  /** A rigid body in contact. */
+  struct RigidPartner
+  {
+    unsigned int                          body;
+    std::shared_ptr<const RigidBody<dim>> rigid;
+    DofIndex                              first_unknown;
+    std::vector<unsigned int>             free_components;
+    RigidPose<dim>                        pose; //!< of the last evaluation
+    typename RigidPose<dim>::Load         load; //!< of the last evaluation, on this process
+  };
+  /** A rigid side of a pair: index of the partner and -1 for body a, 1 for body b. */
+  struct RigidSide
+  {
+    unsigned int partner;
+    double       sign;
+  };
+  const std::vector<RigidSide> &rigid_sides(const Group &group) const
+  {
+    return rigid_sides_of_pair[contact_points[group.first_point].pair];
+  }
+  /** The nodes' unknowns of a group, then the free components of its rigid sides. */
+  std::vector<DofIndex> unknowns(const Group &group) const;
+  void add_rigid_couplings(const Group &group, const unsigned int point, const double *weight,
+                           const dealii::Tensor<2, dim> &stiffness,
+                           dealii::FullMatrix<double>   &block) const;
+
   std::vector<ContactPair>            contact_pairs;
   std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
+  std::vector<RigidPartner>           rigid_partners;
+  std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;
-  std::vector<Group>                  groups;
-  std::vector<DofIndex>               group_nodes;
+  /** Projections of each point on the bodies a and b; empty without rigid bodies. */
+  std::vector<std::array<dealii::Point<dim>, 2>> contact_feet;
+  std::vector<Group>                             groups;
+  std::vector<DofIndex>                          group_nodes;
   std::vector<double>                 stencil_weights; //!< per point, the nodes of its group
   std::vector<dealii::Tensor<1, dim>> contact_jumps;
   std::vector<ContactResponse<dim>>   contact_responses;

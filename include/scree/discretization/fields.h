@@ -44,7 +44,8 @@ unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
  * of the conflict graph, where two bodies conflict if their active cells plus one layer of vertex
  * neighbours intersect. All fields form one numbering: the unknowns of a process are contiguous,
  * field after field; the dim components of a node are contiguous too, so that a node is named by
- * its first unknown; multipliers come last (method.md section 5).
+ * its first unknown; the components of rigid bodies come last, then multipliers: the trailing
+ * unknowns, all on the last process (method.md section 5).
  */
 template <int dim>
 class Fields
@@ -110,6 +111,18 @@ public:
     return owned_dofs.size();
   }
 
+  /** Unknowns that belong to no node: components of rigid bodies, then multipliers. */
+  unsigned int n_trailing() const
+  {
+    return n_rigid + n_multipliers;
+  }
+
+  /** Global number of the first of the n_rigid_components of a rigid body. */
+  DofIndex rigid_unknown(const unsigned int body) const
+  {
+    return n_dofs() - n_trailing() + rigid_offset[body];
+  }
+
   /** Global number of multiplier `i`. */
   DofIndex multiplier(const unsigned int i) const
   {
@@ -132,14 +145,16 @@ public:
 private:
   void classify(const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies);
   void colour_bodies(const unsigned int n_bodies);
-  void distribute(const unsigned int n_multipliers);
+  void distribute();
   void list_nodes();
   void collect_constraints();
   DofIndex    global_index(const unsigned int field, const DofIndex local) const;
   NodeStencil local_stencil(const unsigned int body, const dealii::Point<dim> &point) const;
 
-  unsigned int n_multipliers;
-  unsigned int n_owned = 0;
+  unsigned int              n_multipliers;
+  unsigned int              n_rigid = 0;  //!< unknowns of rigid bodies
+  std::vector<unsigned int> rigid_offset; //!< of each body among them, only for rigid bodies
+  unsigned int              n_owned = 0;
   /** Bodies in each grid cell of this process, with whether it is cut. */
   std::vector<std::vector<std::pair<unsigned int, bool>>> bodies_of_cell;
   std::vector<unsigned int>                               colour; //!< field of each body
@@ -152,4 +167,15 @@ private:
   dealii::IndexSet                   owned_dofs, relevant_dofs;
   dealii::AffineConstraints<double>  constraints;
 };
+
+/** The unknowns of a rigid body in a ghosted vector. */
+template <int dim, typename Vector>
+typename RigidPose<dim>::Unknowns
+rigid_unknowns(const Fields<dim> &fields, const unsigned int body, const Vector &u)
+{
+  typename RigidPose<dim>::Unknowns q;
+  for (unsigned int m = 0; m < q.size(); ++m)
+    q[m] = u(fields.rigid_unknown(body) + m);
+  return q;
+}
 } // namespace scree

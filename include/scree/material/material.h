@@ -27,6 +27,9 @@ struct MaterialParameters
   /** Mass per volume in the reference configuration, >= 0 [mass/length^3]. */
   double density = 0;
 
+  /** Whether bodies of this material do not deform. */
+  bool is_rigid() const;
+
   /** Reads the entries of one material and records what is not allowed. */
   void declare(const ParameterSection &section);
 };
@@ -96,7 +99,7 @@ private:
 };
 
 /**
- * The law that `parameters` names.
+ * The law that `parameters` names; none (null) for a rigid material.
  *
  * @throws UserError if there is no law of that name or a constant is not allowed
  */

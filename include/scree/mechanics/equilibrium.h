@@ -1,8 +1,8 @@
 #pragma once
 
 #include <scree/mechanics/boundary_terms.h>
-#include <scree/mechanics/rigid_motion.h>
-#include <scree/mechanics/strong_supports.h>
+#include <scree/mechanics/free_bodies.h>
+#include <scree/mechanics/rigid_bodies.h>
 #include <scree/state/state.h>
 
 #include <string>
@@ -27,18 +27,12 @@ struct Energies
   }
 };
 
-/** How a body is held before contact: rigid motions that nothing but contact resists. */
-struct FreeMotion
-{
-  unsigned int body;
-  unsigned int n_free; //!< number of free rigid motions
-};
-
 /**
  * The discrete equilibrium r(u) = f(t) - A u - R_contact(u) = 0 of all bodies on a fixed geometry,
  * and its tangent K = A + dR_contact/du. A (bulk, ghost penalty, Nitsche, springs, multipliers) is
  * linear and assembled once; prescribed unknowns are kept in u and eliminated from K, so that A
- * also gives their reactions (method.md sections 3, 7, 8).
+ * also gives their reactions (method.md sections 3, 7, 8). Rigid bodies have rows without A, their
+ * loads f depend on the pose.
  */
 template <int dim>
 class Equilibrium
@@ -52,6 +46,9 @@ public:
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
+
+  /** Sets the prescribed unknowns of the time of set_time() in `u`. */
+  void set_prescribed(Vector &u) const;
 
   /** r(u) with the contact history of the start of the step; zero on prescribed and hanging rows.
    */
@@ -79,26 +76,43 @@ public:
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
 
+  /**
+   * Shortens the increment `du` of the last residual() such that no rigid body that nothing holds
+   * moves farther than `length`: the artificial mass alone would send it anywhere (collective).
+   */
+  void shorten(Vector &du, const double length) const;
+
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
   /** The |r| that round-off in A u leaves at the last residual(). */
   double round_off() const;
 
-  /** Rigid motions of each body, for the near null space. */
+  /** Rigid motions of each deformable body, for the near null space. */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &free_bodies() const
   {
-    return free_motions;
+    return free.motions();
   }
 
   /**
    * Free bodies that the contact of the last residual() does not hold either: with their unresisted
    * motions there is no equilibrium under a further load.
    */
-  std::vector<unsigned int> bodies_not_held() const;
+  std::vector<unsigned int> bodies_not_held() const
+  {
+    return free.not_held();
+  }
+
+  /** Whether the motion of a rigid body is unknown. */
+  bool has_free_rigid_bodies() const;
+
+  const RigidBodies<dim> &rigid_bodies() const
+  {
+    return rigid;
+  }
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -127,11 +141,9 @@ public:
   }
 
 private:
-  void                       set_up_matrices();
-  dealii::FullMatrix<double> resistance_of_supports(const unsigned int       body,
-                                                    const RigidMotions<dim> &motions) const;
-
-  void   find_free_bodies();
+  void   set_up_matrices();
+  void   set_up_artificial_mass();
+  void   set_zero_on_prescribed(Vector &r) const;
   void   add_artificial_mass(Matrix &matrix) const;
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
@@ -144,20 +156,22 @@ private:
   const BoundaryTerms<dim>     &boundary_terms;
   ContactPoints<dim>           &contact;
   StrongSupports<dim>           supports;
+  RigidBodies<dim>              rigid;
+  FreeBodies<dim>               free;
 
-  Matrix                  stiffness;       //!< A
-  Matrix                  newton_matrix;   //!< K
-  Vector                  loads;           //!< f
-  Vector                  dead_loads;      //!< tractions, pressures and body forces in f
-  Vector                  internal_forces; //!< A u of the last residual()
-  Vector                  contact_forces;  //!< -R_contact of the last residual()
-  Vector                  artificial_mass; //!< added to the diagonal for free bodies
-  Vector                  ghosted;         //!< u of the last residual() with ghosts
-  dealii::IndexSet        ghosted_dofs;
-  std::vector<FreeMotion> free_motions;
-  double                  time              = 0.;
-  double                  largest_stiffness = 0.; //!< largest diagonal entry of A
-  double                  displacement_norm = 0.; //!< |u| of the last residual()
+  Matrix stiffness;       //!< A
+  Matrix newton_matrix;   //!< K
+  Vector loads;           //!< f
+  Vector dead_loads;      //!< tractions, pressures and body forces in f
+  Vector internal_forces; //!< A u of the last residual()
+  Vector contact_forces;  //!< -R_contact of the last residual()
+  Vector applied_forces;  //!< on rigid bodies at the last residual()
+  Vector artificial_mass; //!< on the diagonal for free bodies and prescribed rigid components
+  Vector ghosted;         //!< u of the last residual() with ghosts
+  dealii::IndexSet ghosted_dofs;
+  double           time              = 0.;
+  double           largest_stiffness = 0.; //!< largest diagonal entry of A
+  double           displacement_norm = 0.; //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies current_energies;

@@ -1,15 +1,19 @@
 #pragma once
 
-#include <scree/bodies/body.h>
+#include <scree/discretization/fields.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <vector>
 
 namespace scree
 {
 /**
- * The infinitesimal rigid motions of a body about the centre of its box, rotations scaled by its
- * size so that all have the dimension of a translation, and a measure of what resists them.
+ * The infinitesimal rigid motions of a body about the centre of its box (of a rigid body: about its
+ * reference point), rotations scaled by its size so that all have the dimension of a translation,
+ * and a measure of what resists them.
  */
 template <int dim>
 class RigidMotions
@@ -23,6 +27,12 @@ public:
       : centre(body.box.center())
       , size(0.)
   {
+    if (body.is_rigid())
+      {
+        centre = body.rigid->reference_point;
+        size   = body.rigid->radius;
+        return;
+      }
     for (unsigned int d = 0; d < dim; ++d)
       size = std::max(size, 0.5 * body.box.side_length(d));
   }
@@ -73,10 +83,10 @@ public:
     add_resistance(position, direction, weight, resistance);
   }
 
-  /** The mean rotation (2D) is prescribed. */
-  void add_rotation_resistance(const double weight, Resistance &resistance) const
+  /** A motion is prescribed; the last one is the rotation in 2D. */
+  void add_motion_resistance(const unsigned int m, Resistance &resistance) const
   {
-    resistance(n_motions - 1, n_motions - 1) += weight;
+    resistance(m, m) += 1.;
   }
 
   /** How many independent motions nothing resists (collective). */
@@ -103,4 +113,9 @@ private:
   dealii::Point<dim> centre;
   double             size;
 };
+
+/** The rigid motions of each deformable body as vectors of unknowns. */
+template <int dim>
+std::vector<dealii::TrilinosWrappers::MPI::Vector>
+near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
 } // namespace scree

@@ -11,6 +11,8 @@ namespace scree
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
  * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
  * displacement, stress, von Mises and principal stresses, undeformed (ParaView: Warp By Vector).
+ * Rigid bodies come whole, from their coarse lattice, without stress; the first process writes
+ * them.
  */
 template <int dim>
 class BodyOutput
@@ -33,10 +35,19 @@ private:
     unsigned int                    active_cell;
     std::vector<dealii::Point<dim>> vertices;
   };
+  /** A piece of a rigid body, vertices in initial coordinates. */
+  struct RigidPiece
+  {
+    unsigned int                    body;
+    std::vector<dealii::Point<dim>> vertices;
+  };
   void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
+  void cut_rigid_body(const unsigned int body);
 
-  const Fields<dim> &fields;
-  std::vector<Piece> pieces;
+  const Fields<dim>            &fields;
+  const std::vector<Body<dim>> &bodies;
+  std::vector<Piece>            pieces;
+  std::vector<RigidPiece>       rigid_pieces;
 };
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */

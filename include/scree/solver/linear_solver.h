@@ -152,6 +152,12 @@ public:
   }
 
   /**
+   * The last unknowns that belong to no node, as those of rigid bodies and multipliers: the AMG
+   * does not see them, see BorderedPreconditioner.
+   */
+  void set_border(const unsigned int n_unknowns);
+
+  /**
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
    * @param symmetric whether A is symmetric positive definite, so that CG may be used
@@ -174,6 +180,7 @@ private:
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
   bool                           smooth_by_ilu;
+  unsigned int                   n_border = 0;
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
 };

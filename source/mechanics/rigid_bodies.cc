@@ -1,0 +1,178 @@
+#include <scree/base/exceptions.h>
+#include <scree/mechanics/rigid_bodies.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+template <int dim>
+RigidBodies<dim>::RigidBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                              const ContactPoints<dim> &contact)
+    : fields(fields)
+    , bodies(bodies)
+    , contact(contact)
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      rigid_bodies.push_back(b);
+  for_owned([&](const RigidBody<dim> &rigid, const unsigned int m, const DofIndex unknown) {
+    if (!rigid.is_free(m))
+      prescribed_unknowns.push_back(unknown);
+  });
+}
+
+template <int dim>
+std::vector<std::vector<DofIndex>>
+RigidBodies<dim>::couplings() const
+{
+  std::vector<std::vector<DofIndex>> result;
+  for (const unsigned int b : rigid_bodies)
+    {
+      result.emplace_back();
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        result.back().push_back(fields.rigid_unknown(b) + m);
+    }
+  return result;
+}
+
+template <int dim>
+void
+RigidBodies<dim>::set(Vector &u, const double time) const
+{
+  for_owned([&](const RigidBody<dim> &rigid, const unsigned int m, const DofIndex unknown) {
+    if (!rigid.is_free(m))
+      u(unknown) = rigid.value(m, time) * (m < dim ? 1. : rigid.radius);
+  });
+  u.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+dealii::Tensor<1, 3>
+RigidBodies<dim>::applied_moment(const unsigned int body, const double time) const
+{
+  dealii::Tensor<1, 3> moment;
+  for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
+    if (bodies[body].rigid->is_free(m))
+      moment[rotation_axis<dim>(m)] = bodies[body].rigid->value(m, time);
+  return moment;
+}
+
+template <int dim>
+RigidPose<dim>
+RigidBodies<dim>::pose(const unsigned int body, const Vector &u) const
+{
+  return RigidPose<dim>(*bodies[body].rigid, rigid_unknowns(fields, body, u));
+}
+
+template <int dim>
+void
+RigidBodies<dim>::applied(const Vector &u, const double time, Vector &forces) const
+{
+  for (const unsigned int b : rigid_bodies)
+    {
+      const RigidBody<dim> &rigid  = *bodies[b].rigid;
+      const auto            moment = pose(b, u).generalised_moment(applied_moment(b, time));
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        {
+          const DofIndex unknown = fields.rigid_unknown(b) + m;
+          if (rigid.is_free(m) && fields.owned().is_element(unknown))
+            forces(unknown) = m < dim ? rigid.value(m, time) : moment[rotation_axis<dim>(m)];
+        }
+    }
+  forces.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
+RigidBodies<dim>::add_to_matrix(const Vector &u, const double time,
+                                dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  for (const unsigned int b : rigid_bodies)
+    {
+      const dealii::Tensor<1, 3> moment = applied_moment(b, time);
+      const DofIndex             first  = fields.rigid_unknown(b);
+      if (moment.norm() == 0. || !fields.owned().is_element(first))
+        continue;
+      const auto derivative = pose(b, u).generalised_moment_derivative(moment);
+      for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
+        for (unsigned int n = dim; n < n_rigid_components<dim>; ++n)
+          if (bodies[b].rigid->is_free(m) && bodies[b].rigid->is_free(n))
+            matrix.add(first + m, first + n,
+                       -derivative[rotation_axis<dim>(m)][rotation_axis<dim>(n)]);
+    }
+}
+
+template <int dim>
+bool
+RigidBodies<dim>::is_symmetric(const double time) const
+{
+  return dim == 2 || std::all_of(rigid_bodies.begin(), rigid_bodies.end(), [&](const unsigned b) {
+           return applied_moment(b, time).norm() == 0.;
+         });
+}
+
+template <int dim>
+double
+RigidBodies<dim>::stiffness_scale(const unsigned int body) const
+{
+  double modulus = 0.;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    if (contact.pairs()[p].a == body || contact.pairs()[p].b == body)
+      modulus = std::max(modulus, contact.modulus(p));
+  require(modulus > 0., bodies[body].path,
+          "the rigid body '" + bodies[body].name
+            + "' moves freely, but no other body is near enough for contact",
+          "place it nearer, raise Contact/Shift, or prescribe its motion");
+  return modulus * (dim == 2 ? 1. : bodies[body].rigid->radius);
+}
+
+template <int dim>
+double
+RigidBodies<dim>::work(const Vector &u, const Vector &old_u, const Vector &forces,
+                       const Vector &old_forces) const
+{
+  double work = 0.;
+  for_owned([&](const RigidBody<dim> &, const unsigned int, const DofIndex unknown) {
+    work += 0.5 * (forces(unknown) + old_forces(unknown)) * (u(unknown) - old_u(unknown));
+  });
+  return work;
+}
+
+template <int dim>
+double
+RigidBodies<dim>::largest_displacement(const unsigned int body, const Vector &u) const
+{
+  const RigidPose<dim> where  = pose(body, u);
+  double               result = 0.;
+  for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+    result = std::max(result, where.displacement(bodies[body].box.vertex(v)).norm());
+  return result;
+}
+
+template <int dim>
+std::vector<RigidBodyState<dim>>
+RigidBodies<dim>::states(const Vector &u) const
+{
+  const MPI_Comm                   communicator = fields.grid.communicator();
+  std::vector<RigidBodyState<dim>> result;
+  for (const unsigned int b : rigid_bodies)
+    {
+      auto load                  = contact.rigid_load(b);
+      load.force                 = dealii::Utilities::MPI::sum(load.force, communicator);
+      load.couple                = dealii::Utilities::MPI::sum(load.couple, communicator);
+      const RigidPose<dim> where = pose(b, u);
+      result.push_back(
+        {b, where.translation(), where.rotation(), -load.force, -where.moment(load)});
+    }
+  return result;
+}
+
+template struct RigidBodyState<2>;
+template struct RigidBodyState<3>;
+template class RigidBodies<2>;
+template class RigidBodies<3>;
+} // namespace scree
