@@ -191,8 +191,10 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
       for (unsigned int c = 0; c < levels.size(); ++c)
         wanted_levels[c] = in_contact[c] ? level_of_contact : levels[c] + marked[c];
     }
-  unsigned int finest = *std::max_element(wanted_levels.begin(), wanted_levels.end());
-  finest              = dealii::Utilities::MPI::max(finest, communicator);
+  unsigned int finest = 0;
+  for (const unsigned int level : wanted_levels)
+    finest = std::max(finest, level);
+  finest = dealii::Utilities::MPI::max(finest, communicator);
   if (finest > affordable && affordable < parameters.study.finest_level)
     log.line("Cells are not divided beyond level " + std::to_string(affordable)
              + ": the level sets would need too much memory");
