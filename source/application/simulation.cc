@@ -366,6 +366,21 @@ Simulation<dim>::write_results()
 }
 
 template <int dim>
+double
+Simulation<dim>::n_level_set_values() const
+{
+  double sum = 0.;
+  for (const Body<dim> &body : bodies)
+    {
+      double product = 1.;
+      for (const auto n : body.level_set.n_nodes())
+        product *= n;
+      sum += product;
+    }
+  return sum;
+}
+
+template <int dim>
 ErrorEstimate
 Simulation<dim>::estimate_error() const
 {

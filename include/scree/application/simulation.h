@@ -69,6 +69,9 @@ public:
     return *contact;
   }
 
+  /** Nodal values of the level sets of all bodies. */
+  double n_level_set_values() const;
+
   unsigned int n_unknowns() const
   {
     return fields->n_dofs();
