@@ -32,6 +32,7 @@ class Raster:
     def __init__(self, plane, nearness, triangles):
         self.low, high = plane.min(axis=0), plane.max(axis=0)
         self.pixel = (high - self.low).max() / PIXELS
+        self.low, high = self.low - 2.0 * self.pixel, high + 2.0 * self.pixel  # room for the outline
         width, height = (np.ceil((high - self.low) / self.pixel).astype(int) + 1).tolist()
         self.extent = (self.low[0], self.low[0] + width * self.pixel, self.low[1], self.low[1] + height * self.pixel)
         self.triangle = np.full((height, width), -1)
