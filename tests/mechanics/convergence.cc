@@ -39,7 +39,7 @@ std::string
 angled_body()
 {
   return Manufactured<2>::body(half_space_text("0.0123, 0.2345", "0.2923717, 0.9563048"),
-                            {"x-", "x+", "y-"});
+                               {"x-", "x+", "y-"});
 }
 
 std::string

@@ -10,11 +10,10 @@
 namespace scree
 {
 /**
- * A displacement that is no polynomial, with the body force b = -div sigma(u) for E = 1000, nu = 0.3
- * (the material of bodies_text()), as formulas of the coordinates. 2D, plane strain:
- * u = (sin(1.3 x + 0.4) cos(0.9 y - 0.2), cos(0.8 x + 0.3) sin(1.1 y + 0.5)); 3D:
- * u = (sin(1.3 x + 0.4) cos(0.9 y - 0.2), sin(1.1 y + 0.5) cos(0.8 z + 0.3),
- * sin(0.7 z - 0.6) cos(1.2 x + 0.1)).
+ * A displacement that is no polynomial, with the body force b = -div sigma(u) for E = 1000, nu =
+ * 0.3 (the material of bodies_text()), as formulas of the coordinates. 2D, plane strain: u =
+ * (sin(1.3 x + 0.4) cos(0.9 y - 0.2), cos(0.8 x + 0.3) sin(1.1 y + 0.5)); 3D: u = (sin(1.3 x + 0.4)
+ * cos(0.9 y - 0.2), sin(1.1 y + 0.5) cos(0.8 z + 0.3), sin(0.7 z - 0.6) cos(1.2 x + 0.1)).
  */
 template <int dim>
 struct Manufactured

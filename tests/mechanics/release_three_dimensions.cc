@@ -21,11 +21,11 @@ ball()
 std::string
 turned_box()
 {
-  return Manufactured<3>::body(
-    shape_text("box", "set Lower corner = -0.5123, -0.6234, -0.4321\n"
-                      "set Upper corner = 0.5321, 0.4987, 0.6012\n"
-                      "set Rotation axis = 1, 1, 1\nset Rotation angle = 23"),
-    {});
+  return Manufactured<3>::body(shape_text("box",
+                                          "set Lower corner = -0.5123, -0.6234, -0.4321\n"
+                                          "set Upper corner = 0.5321, 0.4987, 0.6012\n"
+                                          "set Rotation axis = 1, 1, 1\nset Rotation angle = 23"),
+                               {});
 }
 
 /** A half-space with a boundary at angles to all axes, clipped by the box. */
@@ -83,11 +83,12 @@ TEST(ReleaseThreeDimensions, HangingCutCells)
   double result[2];
   for (const unsigned int i : {0, 1})
     {
-      const std::string limit = "set Cell size limit = if(x > 0.1, " + std::to_string(0.25 / (1 << i))
-                                + ", " + std::to_string(0.5 / (1 << i)) + ")\n";
-      EquilibriumModel<3> model(grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1 + i,
-                                          graded_text(i, limit))
-                                + bodies_text({{"body", ball()}}) + solver_text(1e-9, "iterative"));
+      const std::string limit = "set Cell size limit = if(x > 0.1, "
+                                + std::to_string(0.25 / (1 << i)) + ", "
+                                + std::to_string(0.5 / (1 << i)) + ")\n";
+      EquilibriumModel<3> model(
+        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1 + i, graded_text(i, limit))
+        + bodies_text({{"body", ball()}}) + solver_text(1e-9, "iterative"));
       EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
       result[i] = Manufactured<3>::solve(model);
     }
@@ -108,8 +109,7 @@ TEST(ReleaseThreeDimensions, CutsAtAnyOffset)
           point.precision(17);
           point << "0, 0, " << 0.25 + offset * h;
           EquilibriumModel<3> model(
-            grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", degree == 1 ? 2 : 1)
-            + degree_text(degree)
+            grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", degree == 1 ? 2 : 1) + degree_text(degree)
             + bodies_text({{"body", Manufactured<3>::body(half_space_text(point.str(), "0, 0, 1"),
                                                           {"x-", "x+", "y-", "y+", "z-"})}})
             + solver_text(1e-8, "iterative"));
@@ -118,8 +118,8 @@ TEST(ReleaseThreeDimensions, CutsAtAnyOffset)
         }
       const auto [least, most]   = std::minmax_element(found.begin(), found.end());
       const auto [fewest, count] = std::minmax_element(iterations.begin(), iterations.end());
-      std::cout << "  Q" << degree << ": L2 errors " << *least << " to " << *most << ", "
-                << *fewest << " to " << *count << " linear iterations\n";
+      std::cout << "  Q" << degree << ": L2 errors " << *least << " to " << *most << ", " << *fewest
+                << " to " << *count << " linear iterations\n";
       EXPECT_LE(*most, 1.3 * *least);
       EXPECT_LE(*count, *fewest + 8);
     }
@@ -173,7 +173,7 @@ expect_uniform_pressure(EquilibriumModel<3> &model, const double n_z)
   EXPECT_LT(difference, 1e-8 * stress);
 }
 
-const std::string stick = "set Law = stick";
+const std::string stick   = "set Law = stick";
 const std::string coulomb = "set Law = coulomb\nset Friction coefficient = 0.9";
 
 /** Planes turned by 0, about one axis, and about two: tan^2 = n_x^2 + n_y^2 over n_z^2 < 0.9^2. */
@@ -205,8 +205,7 @@ TEST(ReleaseThreeDimensions, PatchWithHangingNodes)
 {
   for (const Plane &plane : planes())
     {
-      EquilibriumModel<3> model(
-        patch_text(plane.normal, plane.opposite, coulomb, graded_text(1)));
+      EquilibriumModel<3> model(patch_text(plane.normal, plane.opposite, coulomb, graded_text(1)));
       EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
       expect_uniform_pressure(model, plane.n_z);
     }
