@@ -249,12 +249,7 @@ ContourDistance<dim>::unsigned_distance(const std::size_t offset)
       nearest              = std::min(nearest, x.distance(cut));
       distance             = std::min(distance, distance_to_foot(x, degree, cut));
     }
-  if (distance <= nearest * (1 + 1e-8))
-    return distance;
-  if (cuts.n_edges > 0)
-    return cuts.estimate;
-  const auto [value, gradient] = lattice.value_and_gradient(x, 1);
-  return std::min(std::abs(value) / gradient.norm(), 2 * lattice.spacing());
+  return distance <= nearest * (1 + 1e-8) ? distance : cuts.estimate;
 }
 
 template <int dim>

@@ -304,10 +304,11 @@ compute_distances(Lattice<dim> &lattice)
 
   std::vector<char> known(lattice.values().size(), 0);
   for (std::size_t n = 0; n < near.size(); ++n)
-    {
-      known[near[n]]            = 1;
-      lattice.values()[near[n]] = distances[n];
-    }
+    if (std::isfinite(distances[n]))
+      {
+        known[near[n]]            = 1;
+        lattice.values()[near[n]] = distances[n];
+      }
   march_distances(lattice, known);
 }
 

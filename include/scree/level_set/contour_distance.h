@@ -13,7 +13,7 @@ std::vector<std::size_t> nodes_near_contour(const Lattice<dim> &lattice);
  * of the cubic interpolant; where the function has a kink (a second difference above 0.3 of the
  * first differences nearby) to that of the multilinear interpolant; where no closest point is found
  * the estimate from the cut edges, `d = (sum_i 1/d_i^2)^{-1/2}` with the distance d_i to the cut
- * along axis i, or at last `|phi| / |grad phi|`.
+ * along axis i.
  */
 template <int dim>
 class ContourDistance
@@ -24,7 +24,7 @@ public:
   /** Keeps a reference to the lattice, whose values must not change meanwhile. */
   explicit ContourDistance(const Lattice<dim> &lattice);
 
-  /** The signed distance (length) of the node at `offset`. */
+  /** The signed distance (length) of the node at `offset`; infinite if no contour is found. */
   double operator()(std::size_t offset);
 
   /** Whether a node within `reach` nodes along every axis is a kink. */

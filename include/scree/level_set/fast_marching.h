@@ -18,8 +18,8 @@ void compute_distances(Lattice<dim> &lattice);
 
 /**
  * Continues the distances of the `known` nodes (in the order of the values; what is not zero is
- * known) to all others, whose values serve for their sign only. The known nodes must contain
- * those next to the contour, see nodes_near_contour().
+ * known) to all others, whose values serve for their sign only. Nodes with a cut edge within two
+ * spacings along an axis must be known.
  *
  * Second-order fast marching, `|grad phi| = 1` with one-sided differences (Sethian, SIAM Review 41,
  * 1999), outwards and inwards at once. The order of acceptance is kept up to 1/256 spacing by
