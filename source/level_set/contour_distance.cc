@@ -15,6 +15,9 @@ namespace
 // reaches it at a radius of curvature of 3 spacings).
 constexpr double kink_threshold = 0.3;
 
+// Where closest points are looked for, in spacings.
+constexpr double reach = 6;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool
@@ -218,7 +221,7 @@ ContourDistance<dim>::distance_to_foot(const Point<dim> &x, const unsigned int d
   const ClosestPoint<dim> foot     = closest_point(lattice, x, degree, start);
   const double            distance = x.distance(foot.point);
   const bool              found    = foot.converged && lattice.box().point_inside(foot.point, 1e-9)
-                     && distance < 4 * lattice.spacing();
+                     && distance < reach * lattice.spacing();
   return found ? distance : infinity;
 }
 
@@ -231,14 +234,14 @@ ContourDistance<dim>::unsigned_distance(const std::size_t offset)
   const CutEdges   cuts = cut_edges(node, offset);
 
   // The interpolation stencils around the foot reach no further than this.
-  const int          reach    = cuts.nearest <= lattice.spacing() ? 1 : 2;
-  const unsigned int degree   = kink_near(node, reach) ? 1 : 3;
+  const int          stencil  = cuts.nearest <= lattice.spacing() ? 1 : 2;
+  const unsigned int degree   = kink_near(node, stencil) ? 1 : 3;
   double             distance = distance_to_foot(x, degree, x);
   if (degree == 3 && distance <= cuts.nearest)
     return distance;
 
   // A nearer part of the contour, or a corner, may be found from where the edges are cut.
-  double nearest = cuts.n_edges > 0 ? infinity : 4 * lattice.spacing();
+  double nearest = cuts.n_edges > 0 ? infinity : reach * lattice.spacing();
   for (unsigned int i = 0; i < cuts.n_edges; ++i)
     {
       const auto &[axis, side, step] = cuts.edges[i];
