@@ -120,13 +120,14 @@ ContourDistance<dim>::is_kink(const std::size_t offset) const
   const double *value        = lattice.values().data() + offset;
   double        first_square = 0, second = 0;
   for (unsigned int d = 0; d < dim; ++d)
-    if (exists(node, d, -1) && exists(node, d, 1))
-      {
-        const double backward = value[0] - value[-stride[d]];
-        const double forward  = value[stride[d]] - value[0];
-        first_square += std::max(backward * backward, forward * forward);
-        second = std::max(second, std::abs(forward - backward));
-      }
+    {
+      // at an end of the lattice the only difference counts twice
+      const bool   below = exists(node, d, -1), above = exists(node, d, 1);
+      const double backward = below ? value[0] - value[-stride[d]] : value[stride[d]] - value[0];
+      const double forward  = above ? value[stride[d]] - value[0] : backward;
+      first_square += std::max(backward * backward, forward * forward);
+      second = std::max(second, std::abs(forward - backward));
+    }
   return second > kink_threshold * std::sqrt(first_square);
 }
 
