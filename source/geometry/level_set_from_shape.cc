@@ -75,9 +75,9 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
                       [](const double value) { return value < 0; }),
           where, "the shape contains no node of the background grid",
           "it is empty, outside the grid, or needs smaller cells");
-  const NodeBox<dim> box = trimmed(lattice, width);
-  if (box.n_nodes != lattice.n_nodes())
-    lattice = lattice.is_tiled() ? sampled(shape, frame, box, width) : reboxed(lattice, box);
+  const NodeBox<dim> needed = trimmed(lattice, width);
+  if (needed.n_nodes != lattice.n_nodes())
+    lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
   if (!shape.is_distance() && has_contour(lattice))
     compute_distances(lattice);
   return lattice;
