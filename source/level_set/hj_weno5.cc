@@ -124,24 +124,50 @@ hj_row_first_order_3d(const HjRow &row)
   stage_row<3, false>(row);
 }
 
+namespace
+{
+// Asks for the memory that the stencils of a run reach along the last axis: short runs are over
+// before the processor sees a pattern.
+template <int dim>
+void
+prefetch_run(const NodeSet<dim> &nodes, const NodeRun &run,
+             const std::array<const double *, 2> &phi_and_start, double *const out)
+{
+  constexpr int        line = 8; // doubles
+  const std::ptrdiff_t step = nodes.grid.stride(dim - 1);
+  for (int i = 0; i < run.n; i += line)
+    {
+      const double *const phi = phi_and_start[0] + run.with_halo + i;
+      for (int k = -nodes.grid.width; k <= nodes.grid.width; ++k)
+        __builtin_prefetch(phi + k * step);
+      __builtin_prefetch(phi_and_start[1] + run.with_halo + i);
+      __builtin_prefetch(out + run.with_halo + i, 1);
+    }
+}
+} // namespace
+
 template <int dim>
 void
 hj_stage(const NodeSet<dim> &nodes, const Upwinding upwinding,
          const std::array<std::vector<double>, dim> &velocity, const StageWeights &weights,
          const std::array<const double *, 2> &phi_and_start, double *const out)
 {
-  const auto           kernel = upwinding == Upwinding::weno5
-                                  ? (dim == 3 ? hj_row_weno5_3d : hj_row_weno5_2d)
-                                  : (dim == 3 ? hj_row_first_order_3d : hj_row_first_order_2d);
-  const HaloGrid<dim> &grid   = nodes.grid;
+  const auto           kernel   = upwinding == Upwinding::weno5
+                                    ? (dim == 3 ? hj_row_weno5_3d : hj_row_weno5_2d)
+                                    : (dim == 3 ? hj_row_first_order_3d : hj_row_first_order_2d);
+  const HaloGrid<dim> &grid     = nodes.grid;
+  const bool           is_dense = nodes.n_nodes == nodes.runs.size() * grid.n_nodes[0];
   HjRow                row{};
   row.start_weight = weights.start_weight;
   row.dt_over_h    = weights.dt / grid.spacing;
   row.epsilon      = 0.1 * grid.spacing * grid.spacing;
   for (int d = 0; d < dim; ++d)
     row.stride[d] = grid.stride(d);
-  for (const NodeRun &run : nodes.runs)
+  for (std::size_t r = 0; r < nodes.runs.size(); ++r)
     {
+      const NodeRun &run = nodes.runs[r];
+      if (!is_dense && r + 3 < nodes.runs.size())
+        prefetch_run(nodes, nodes.runs[r + 3], phi_and_start, out);
       row.n = run.n;
       for (int d = 0; d < dim; ++d)
         row.velocity[d] = velocity[d].data() + run.packed;
