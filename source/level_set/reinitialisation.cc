@@ -68,7 +68,7 @@ private:
 
   void rebuild_rest();
 
-  // Nodes of the band near kinks, whose factors are unknown (0), take those of the others.
+  // Nodes of the band whose factors are unknown (0) take those of the others.
   void spread_factors(std::vector<double> &factors) const;
 
   double contour_motion(const std::vector<double> &new_values) const;
@@ -220,16 +220,25 @@ template <int dim>
 void
 Reinitialisation<dim>::rebuild_band()
 {
-  std::vector<double> values = lattice.values(), factors(values.size(), 0.);
+  std::vector<double>      values = lattice.values(), factors(values.size(), 0.);
+  std::vector<std::size_t> scaled;
   for (const std::size_t i : band)
-    if (values[i] != 0 && !contour_distance.kink_near(lattice.index(i), kink_reach))
-      {
-        const double distance = contour_distance(i);
-        if (std::isfinite(distance))
-          factors[i] = distance / values[i];
-      }
+    {
+      const double distance = contour_distance.kink_near(lattice.index(i), kink_reach)
+                                ? std::numeric_limits<double>::infinity()
+                                : contour_distance(i);
+      if (!std::isfinite(distance))
+        scaled.push_back(i);
+      else
+        {
+          values[i] = distance;
+          // a ratio of two small numbers says nothing about the slope
+          if (std::abs(distance) > 0.05 * lattice.spacing())
+            factors[i] = distance / lattice.values()[i];
+        }
+    }
   spread_factors(factors);
-  for (const std::size_t i : band)
+  for (const std::size_t i : scaled)
     values[i] *= factors[i];
   count.n_changed_near = band.size();
   count.contour_motion = contour_motion(values);

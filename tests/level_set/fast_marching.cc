@@ -3,7 +3,10 @@
 #include <scree/level_set/closest_point.h>
 #include <scree/level_set/fast_marching.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <iostream>
 
 namespace scree
 {
@@ -41,31 +44,93 @@ error(const Lattice<dim> &lattice, const F &exact, const G &where)
   return result;
 }
 
+struct Errors
+{
+  double start; // nodes next to the contour
+  double all;   // away from the centre
+};
+
 template <int dim>
-double
-ball_error(const double h, const int n)
+Errors
+ball_errors(const double h, const int n)
 {
   const double radius  = 0.53;
   auto         lattice = sampled<dim>(h, n, [&](const Point<dim> &x) {
     return (x.norm_square() - radius * radius) * (2 + std::sin(2 * x[0] + x[1]));
   });
   compute_distances(lattice);
-  return error(
-    lattice, [&](const Point<dim> &x) { return x.norm() - radius; },
-    [](const Point<dim> &x) { return x.norm() > 0.3; });
+  const auto exact = [&](const Point<dim> &x) { return x.norm() - radius; };
+  return {error(lattice, exact, [&](const Point<dim> &x) { return std::abs(exact(x)) < h; }),
+          error(lattice, exact, [](const Point<dim> &x) { return x.norm() > 0.3; })};
+}
+
+double
+order(const double coarse, const double fine)
+{
+  return std::log2(coarse / fine);
 }
 
 TEST(FastMarching, IsSecondOrderInTheMaximumNorm)
 {
-  std::array<double, 3> errors;
+  std::array<Errors, 3> errors;
   for (int level : {0, 1, 2})
-    errors[level] = ball_error<2>(0.05 / (1 << level), 20 << level);
-  EXPECT_LT(errors[1], 1e-3);
-  EXPECT_GT(std::log2(errors[0] / errors[1]), 1.7);
-  EXPECT_GT(std::log2(errors[1] / errors[2]), 1.7);
+    errors[level] = ball_errors<2>(0.05 / (1 << level), 20 << level);
+  std::cout << "2D errors " << errors[0].all << ' ' << errors[1].all << ' ' << errors[2].all
+            << ", order " << order(errors[1].all, errors[2].all) << "; next to the contour "
+            << errors[2].start << ", order " << order(errors[1].start, errors[2].start) << '\n';
+  EXPECT_LT(errors[1].all, 1e-3);
+  EXPECT_GT(order(errors[0].all, errors[1].all), 1.7);
+  EXPECT_GT(order(errors[1].all, errors[2].all), 1.8);
+  EXPECT_GT(order(errors[1].start, errors[2].start), 3);
 
-  const double coarse = ball_error<3>(0.05, 20), fine = ball_error<3>(0.025, 40);
-  EXPECT_GT(std::log2(coarse / fine), 1.7);
+  const Errors coarse = ball_errors<3>(0.05, 20), fine = ball_errors<3>(0.025, 40);
+  std::cout << "3D errors " << coarse.all << ' ' << fine.all << ", order "
+            << order(coarse.all, fine.all) << "; next to the contour " << fine.start << ", order "
+            << order(coarse.start, fine.start) << '\n';
+  EXPECT_GT(order(coarse.all, fine.all), 1.7);
+  EXPECT_GT(order(coarse.start, fine.start), 3);
+}
+
+// A march on one side must not depend on the other one: the complement has the opposite distances.
+TEST(FastMarching, TreatsBothSidesAlike)
+{
+  auto inside  = sampled<2>(0.05, 20, [](const Point<2> &x) { return x.norm() - 0.53; });
+  auto outside = inside;
+  for (double &value : outside.values())
+    value = -value;
+  compute_distances(inside);
+  compute_distances(outside);
+  for (std::size_t i = 0; i < inside.values().size(); ++i)
+    EXPECT_EQ(inside.values()[i], -outside.values()[i]);
+}
+
+template <int dim>
+void
+print_rate(const int n)
+{
+  const auto lattice = sampled<dim>(1. / n, n, [&](const Point<dim> &x) {
+    return (x.norm_square() - 0.36) * (2 + std::sin(2 * x[0] + x[1]));
+  });
+  double     best    = 1e10;
+  for (unsigned int repeat = 0; repeat < 2; ++repeat)
+    {
+      auto               copy  = lattice;
+      const std::clock_t start = std::clock();
+      compute_distances(copy);
+      best = std::min(best, double(std::clock() - start) / CLOCKS_PER_SEC);
+      EXPECT_TRUE(std::isfinite(copy.values().back()));
+    }
+  std::cout << dim << "D, " << 2 * n + 1
+            << " nodes per direction: " << lattice.values().size() / best * 1e-6
+            << " million points per second\n";
+}
+
+TEST(ReleaseFastMarching, Rate)
+{
+  print_rate<2>(50);
+  print_rate<2>(250);
+  print_rate<3>(32);
+  print_rate<3>(50);
 }
 
 template <int dim>

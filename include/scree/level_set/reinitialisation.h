@@ -33,7 +33,7 @@ struct ReinitialisationCount
  * Where slopes are beyond the tolerance, the other nodes are marched from the band
  * (march_distances()); the new values come in over 6 nodes, from 8 to 2 steps away from such
  * places, and beyond 8 spacings from the contour everywhere. Marching everything instead makes the
- * medial axis sharp at every call, which doubles the error of Zalesak's disc.
+ * medial axis sharp at every call, which raises the error of Zalesak's disc by a third.
  *
  * The contour of the cubic interpolant stays to fourth order. That of degree 1 cannot when a slope
  * that varies is removed: a factor f on phi moves the zero of a cut edge by up to h/4 times the
