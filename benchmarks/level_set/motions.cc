@@ -5,7 +5,7 @@
 // usage: motions plane|enright [folder]
 
 #include <scree/level_set/advection.h>
-#include <scree/level_set/fast_marching.h>
+#include <scree/level_set/reinitialisation.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -166,7 +166,7 @@ run(Lattice<dim> &lattice, const Motion<dim> &motion, const Way &way)
           lattice, [&](const double t, NodalVectors<dim> &v) { motion.velocity(begin + t, v); },
           length);
       if (way.n_reinitialisations > 0)
-        compute_distances(lattice);
+        reinitialise(lattice);
     }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <scree/level_set/advection.h>
 #include <scree/level_set/closest_point.h>
 #include <scree/level_set/lattice.h>
 
@@ -132,6 +133,57 @@ TEST(Tiles, AreSearchedForClosestPoints)
       EXPECT_TRUE(b.converged);
       EXPECT_LT(a.point.distance(b.point), 1e-10);
     }
+}
+
+// A ball goes 18 spacings and turns, in 12 increments: the tiles follow it.
+TEST(ReleaseTiles, FollowAMovingBall)
+{
+  const double h     = 1. / 60;
+  auto         tiled = ball_lattices<3>(60, 8 * h).tiled;
+  const auto   ball_of_radius
+    = [](const Point<3> &x, const Point<3> &centre) { return x.distance(centre) - 0.4; };
+  Point<3> centre(-0.2, 0, 0.1);
+  tiled = Lattice<3>(
+    tiled.frame(), tiled.lower(), tiled.n_nodes(),
+    [&](const Point<3> &x) { return ball_of_radius(x, centre); }, 8 * h);
+  const double       angle = 0.1;
+  const Tensor<1, 3> shift({0.02, 0.015, -0.005});
+  const auto         move = [&](const Point<3> &x) {
+    return Tensor<1, 3>({std::cos(angle) * x[0] - std::sin(angle) * x[1] + shift[0] - x[0],
+                         std::sin(angle) * x[0] + std::cos(angle) * x[1] + shift[1] - x[1],
+                         shift[2]});
+  };
+  std::size_t n_nodes = 0;
+  for (unsigned int step = 0; step < 12; ++step)
+    {
+      const AdvectionCount count = advect_tiles<3>(tiled, move, 8 * h);
+      EXPECT_EQ(count.n_unconverged, 0u);
+      n_nodes = count.n_nodes;
+      centre += move(centre);
+    }
+  double       error  = 0;
+  unsigned int n_near = 0;
+  for (std::size_t i = 0; i < tiled.values().size(); ++i)
+    {
+      const Point<3> x     = tiled.node(tiled.index(i));
+      const double   exact = ball_of_radius(x, centre);
+      if (tiled.contains(tiled.index(i)) && std::abs(exact) < 2 * h)
+        {
+          ++n_near;
+          error = std::max(error, std::abs(tiled.values()[i] - exact));
+        }
+    }
+  // all nodes next to the contour are in tiles, and the rest knows its side
+  for (unsigned int i = 0; i < 5000; ++i)
+    {
+      const Point<3> x     = sample<3>(i);
+      const double   exact = ball_of_radius(x, centre);
+      EXPECT_TRUE(std::abs(exact) < h || (tiled.value(x, 1) < 0) == (exact < 0));
+    }
+  std::cout << n_nodes << " nodes, " << n_near << " near the contour, error/h " << error / h
+            << '\n';
+  EXPECT_NEAR(n_near, 4 * numbers::PI * 0.16 / (h * h) * 4, 3000);
+  EXPECT_LT(error, 0.02 * h);
 }
 
 // 800^3 nodes in well below a gigabyte.
