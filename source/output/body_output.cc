@@ -99,6 +99,18 @@ clip_simplex(const std::vector<dealii::Point<dim>> &vertices, const std::vector<
     }
 }
 
+/** Positive orientation, as VTK wants it. */
+template <int dim>
+void
+orient(std::vector<dealii::Point<dim>> &simplex)
+{
+  dealii::Tensor<2, dim> edges;
+  for (unsigned int d = 0; d < dim; ++d)
+    edges[d] = simplex[d + 1] - simplex[0];
+  if (determinant(edges) < 0.)
+    std::swap(simplex[0], simplex[1]);
+}
+
 /** The simplices that divide the unit cube (Kuhn). */
 template <int dim>
 std::vector<std::vector<unsigned int>>
@@ -138,7 +150,7 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
           Piece piece{a, {}};
           for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
             piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
-          pieces.push_back(piece);
+          body_pieces.push_back(piece);
           continue;
         }
       level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values.data());
@@ -179,8 +191,11 @@ BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<doub
             }
           clip_simplex<dim>(vertices, values, simplices);
         }
-      for (const auto &vertices : simplices)
-        pieces.push_back({active_cell, vertices});
+      for (auto &vertices : simplices)
+        {
+          orient<dim>(vertices);
+          body_pieces.push_back({active_cell, vertices});
+        }
     }
 }
 
@@ -205,7 +220,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   output.names.push_back("body");
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
 
-  for (const Piece &piece : pieces)
+  for (const Piece &piece : body_pieces)
     {
       dealii::DataOutBase::Patch<dim, dim> patch;
       const ActiveCell                    &cell     = fields.cells()[piece.active_cell];

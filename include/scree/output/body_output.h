@@ -26,17 +26,27 @@ public:
   std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
                     const std::string &directory, const unsigned int number) const;
 
-private:
-  /** A piece of a cell: a whole cell, or a simplex; vertices in unit coordinates. */
+  /**
+   * A piece of a cell: a whole cell, or a simplex of positive orientation; vertices in unit
+   * coordinates.
+   */
   struct Piece
   {
     unsigned int                    active_cell;
     std::vector<dealii::Point<dim>> vertices;
   };
+
+  /** What is written, on this process. */
+  const std::vector<Piece> &pieces() const
+  {
+    return body_pieces;
+  }
+
+private:
   void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
 
   const Fields<dim> &fields;
-  std::vector<Piece> pieces;
+  std::vector<Piece> body_pieces;
 };
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
