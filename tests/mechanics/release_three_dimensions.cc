@@ -84,10 +84,10 @@ TEST(ReleaseThreeDimensions, HangingCutCells)
   for (const unsigned int i : {0, 1})
     {
       const std::string limit = "set Cell size limit = if(x > 0.1, "
-                                + std::to_string(0.25 / (1 << i)) + ", "
-                                + std::to_string(0.5 / (1 << i)) + ")\n";
+                                + std::to_string(0.125 / (1 << i)) + ", "
+                                + std::to_string(0.25 / (1 << i)) + ")\n";
       EquilibriumModel<3> model(
-        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1 + i, graded_text(i, limit))
+        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 2 + i, graded_text(1 + i, limit))
         + bodies_text({{"body", ball()}}) + solver_text(1e-9, "iterative"));
       EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
       result[i] = Manufactured<3>::solve(model);
