@@ -94,8 +94,7 @@ initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const LinearSolver::Matri
     {
       list.set("smoother: type", "IFPACK");
       list.set("smoother: ifpack type", "ILU");
-      // In 3D rows of degree 2 are long: one level of fill costs more than all else together.
-      list.set("smoother: ifpack level-of-fill", dimension == 2 ? 1. : 0.);
+      list.set("smoother: ifpack level-of-fill", 1.);
     }
   else
     {
@@ -161,10 +160,9 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "Iterative: more iterations than this are a failure.");
   const ParameterSection amg
     = section.subsection("Multigrid", "The preconditioner, algebraic multigrid by ML.");
-  amg.entry(
-    "Smoother", amg_smoother, smoother_names,
-    "automatic: Chebyshev for degree 1; for degree 2, whose thin cuts Chebyshev smooths badly, "
-    "ILU(1) in 2D and ILU(0) in 3D.");
+  amg.entry("Smoother", amg_smoother, smoother_names,
+            "automatic: Chebyshev for degree 1, ILU(1) for degree 2, whose thin cuts Chebyshev "
+            "smooths badly.");
   amg.entry("Smoother sweeps", amg_smoother_sweeps, Patterns::Integer(1),
             "Degree of the Chebyshev smoother.");
   amg.entry("Aggregation threshold", amg_aggregation_threshold, Patterns::Double(0., 1.),
