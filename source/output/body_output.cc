@@ -100,6 +100,18 @@ clip_simplex(const std::vector<dealii::Point<dim>> &vertices, const std::vector<
     }
 }
 
+/** Positive orientation, as VTK wants it. */
+template <int dim>
+void
+orient(std::vector<dealii::Point<dim>> &simplex)
+{
+  dealii::Tensor<2, dim> edges;
+  for (unsigned int d = 0; d < dim; ++d)
+    edges[d] = simplex[d + 1] - simplex[0];
+  if (determinant(edges) < 0.)
+    std::swap(simplex[0], simplex[1]);
+}
+
 /** The simplices that divide the unit cube (Kuhn). */
 template <int dim>
 std::vector<std::vector<unsigned int>>
@@ -126,6 +138,8 @@ clip_box(const std::vector<dealii::Point<dim>> &corners, const std::vector<doubl
         }
       clip_simplex<dim>(vertices, values, simplices);
     }
+  for (auto &vertices : simplices)
+    orient<dim>(vertices);
   return simplices;
 }
 
@@ -213,7 +227,7 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
           Piece piece{a, {}};
           for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
             piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
-          pieces.push_back(piece);
+          body_pieces.push_back(piece);
           continue;
         }
       level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values.data());
@@ -243,7 +257,7 @@ BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<doub
           corner_phi.push_back(phi[node]);
         }
       for (const auto &vertices : clip_box(corners, corner_phi))
-        pieces.push_back({active_cell, vertices});
+        body_pieces.push_back({active_cell, vertices});
     }
 }
 
@@ -288,7 +302,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   output.names   = field_names<dim>();
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
 
-  for (const Piece &piece : pieces)
+  for (const Piece &piece : body_pieces)
     {
       const ActiveCell               &cell     = fields.cells()[piece.active_cell];
       const auto                     &geometry = fields.grid.cells()[cell.grid_cell];

@@ -115,10 +115,9 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "Iterative: more iterations than this are a failure.");
   const ParameterSection amg
     = section.subsection("Multigrid", "The preconditioner, algebraic multigrid by ML.");
-  amg.entry(
-    "Smoother", amg_smoother, smoother_names,
-    "automatic: Chebyshev for degree 1; for degree 2, whose thin cuts Chebyshev smooths badly, "
-    "ILU(1) in 2D and ILU(0) in 3D.");
+  amg.entry("Smoother", amg_smoother, smoother_names,
+            "automatic: Chebyshev for degree 1, ILU(1) for degree 2, whose thin cuts Chebyshev "
+            "smooths badly.");
   amg.entry("Smoother sweeps", amg_smoother_sweeps, Patterns::Integer(1),
             "Degree of the Chebyshev smoother.");
   amg.entry("Aggregation threshold", amg_aggregation_threshold, Patterns::Double(0., 1.),

@@ -55,8 +55,7 @@ Multigrid::initialize(const Epetra_CrsMatrix &A, const Settings &settings,
     {
       list.set("smoother: type", "IFPACK");
       list.set("smoother: ifpack type", "ILU");
-      // One level of fill in 3D takes longer than all the rest.
-      list.set("smoother: ifpack level-of-fill", dimension == 2 ? 1. : 0.);
+      list.set("smoother: ifpack level-of-fill", 1.);
     }
   else
     {

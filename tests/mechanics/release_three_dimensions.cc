@@ -46,7 +46,7 @@ errors(const std::string &body, const unsigned int degree, const std::vector<uns
     {
       EquilibriumModel<3> model(grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", level)
                                 + degree_text(degree) + bodies_text({{"body", body}})
-                                + solver_text(1e-9, "iterative"));
+                                + solver_text(1e-9, degree == 1 ? "iterative" : "direct"));
       result.push_back(Manufactured<3>::solve(model));
       std::cout << "  " << name << ", Q" << degree << ", h = " << model.cut.grid.finest_size()
                 << ": " << model.cut.fields->n_dofs() << " unknowns, L2 error " << result.back()
@@ -73,8 +73,7 @@ TEST(ReleaseThreeDimensions, OrderLinear)
 
 TEST(ReleaseThreeDimensions, OrderQuadratic)
 {
-  EXPECT_GT(last_order(errors(ball(), 2, {0, 1, 2}, "ball")), 2.8);
-  EXPECT_GT(last_order(errors(turned_box(), 2, {0, 1, 2}, "turned box")), 2.8);
+  EXPECT_GT(last_order(errors(ball(), 2, {0, 1}, "ball")), 2.8);
 }
 
 TEST(ReleaseThreeDimensions, HangingCutCells)
@@ -84,10 +83,10 @@ TEST(ReleaseThreeDimensions, HangingCutCells)
   for (const unsigned int i : {0, 1})
     {
       const std::string limit = "set Cell size limit = if(x > 0.1, "
-                                + std::to_string(0.25 / (1 << i)) + ", "
-                                + std::to_string(0.5 / (1 << i)) + ")\n";
+                                + std::to_string(0.125 / (1 << i)) + ", "
+                                + std::to_string(0.25 / (1 << i)) + ")\n";
       EquilibriumModel<3> model(
-        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1 + i, graded_text(i, limit))
+        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 2 + i, graded_text(1 + i, limit))
         + bodies_text({{"body", ball()}}) + solver_text(1e-9, "iterative"));
       EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
       result[i] = Manufactured<3>::solve(model);
@@ -98,31 +97,28 @@ TEST(ReleaseThreeDimensions, HangingCutCells)
 
 TEST(ReleaseThreeDimensions, CutsAtAnyOffset)
 {
-  for (const unsigned int degree : {1, 2})
+  const double              h = 0.125;
+  std::vector<double>       found;
+  std::vector<unsigned int> iterations;
+  for (const double offset : {0., 1e-9, 1e-6, 1e-3, 0.1, 0.3, 0.5, 0.8, 1. - 1e-3})
     {
-      const double              h = degree == 1 ? 0.125 : 0.25;
-      std::vector<double>       found;
-      std::vector<unsigned int> iterations;
-      for (const double offset : {0., 1e-9, 1e-6, 1e-3, 0.1, 0.3, 0.5, 0.8, 1. - 1e-3})
-        {
-          std::ostringstream point;
-          point.precision(17);
-          point << "0, 0, " << 0.25 + offset * h;
-          EquilibriumModel<3> model(
-            grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", degree == 1 ? 2 : 1) + degree_text(degree)
-            + bodies_text({{"body", Manufactured<3>::body(half_space_text(point.str(), "0, 0, 1"),
-                                                          {"x-", "x+", "y-", "y+", "z-"})}})
-            + solver_text(1e-8, "iterative"));
-          found.push_back(Manufactured<3>::solve(model));
-          iterations.push_back(model.linear_iterations);
-        }
-      const auto [least, most]   = std::minmax_element(found.begin(), found.end());
-      const auto [fewest, count] = std::minmax_element(iterations.begin(), iterations.end());
-      std::cout << "  Q" << degree << ": L2 errors " << *least << " to " << *most << ", " << *fewest
-                << " to " << *count << " linear iterations\n";
-      EXPECT_LE(*most, 1.3 * *least);
-      EXPECT_LE(*count, *fewest + 8);
+      std::ostringstream point;
+      point.precision(17);
+      point << "0, 0, " << 0.25 + offset * h;
+      EquilibriumModel<3> model(
+        grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 2)
+        + bodies_text({{"body", Manufactured<3>::body(half_space_text(point.str(), "0, 0, 1"),
+                                                      {"x-", "x+", "y-", "y+", "z-"})}})
+        + solver_text(1e-8, "iterative"));
+      found.push_back(Manufactured<3>::solve(model));
+      iterations.push_back(model.linear_iterations);
     }
+  const auto [least, most]   = std::minmax_element(found.begin(), found.end());
+  const auto [fewest, count] = std::minmax_element(iterations.begin(), iterations.end());
+  std::cout << "  L2 errors " << *least << " to " << *most << ", " << *fewest << " to " << *count
+            << " linear iterations\n";
+  EXPECT_LE(*most, 1.3 * *least);
+  EXPECT_LE(*count, *fewest + 8);
 }
 
 /** Two blocks divided by a plane through (0.5, 0.5, 1) with normal n, pressed down by 0.002. */

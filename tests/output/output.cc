@@ -176,5 +176,43 @@ TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
   EXPECT_NE(text.find("displacement"), std::string::npos);
   EXPECT_NE(text.find("von_mises"), std::string::npos);
 }
+
+/** The volume of a ball of radius 0.7 in the output, all of whose simplices are right-handed. */
+double
+volume_of_pieces(const unsigned int level, const unsigned int degree)
+{
+  EquilibriumModel<3> model(grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", level)
+                            + degree_text(degree)
+                            + bodies_text({{"ball", ball_text("0.01, 0.02, 0.03", 0.7)}}));
+  const BodyOutput<3> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
+  double              volume = 0.;
+  for (const auto &piece : output.pieces())
+    {
+      double part = 1.;
+      if (piece.vertices.size() == 4)
+        {
+          Tensor<2, 3> edges;
+          for (unsigned int d = 0; d < 3; ++d)
+            edges[d] = piece.vertices[d + 1] - piece.vertices[0];
+          part = determinant(edges) / 6.;
+          EXPECT_GE(part, 0.);
+        }
+      volume += part * std::pow(model.cut.grid.finest_size(), 3);
+    }
+  return volume;
+}
+
+TEST(BodyOutput, SimplicesFillABall)
+{
+  // The straight pieces of a curved surface: second order, 6.4% of the volume for h = 0.25.
+  const double exact = 4. / 3. * numbers::PI * 0.343;
+  for (const unsigned int degree : {1, 2})
+    {
+      const double coarse = std::abs(volume_of_pieces(1, degree) - exact),
+                   fine   = std::abs(volume_of_pieces(2, degree) - exact);
+      EXPECT_LT(coarse, 0.065 * exact);
+      EXPECT_LT(fine, 0.35 * coarse);
+    }
+}
 } // namespace
 } // namespace scree

@@ -28,25 +28,36 @@ public:
   std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
                     const std::string &directory, const unsigned int number) const;
 
-private:
-  /** A piece of a cell: a whole cell, or a simplex; vertices in unit coordinates. */
+  /**
+   * A piece of a cell: a whole cell, or a simplex of positive orientation; vertices in unit
+   * coordinates.
+   */
   struct Piece
   {
     unsigned int                    active_cell;
     std::vector<dealii::Point<dim>> vertices;
   };
+
+  /** What is written, on this process. */
+  const std::vector<Piece> &pieces() const
+  {
+    return body_pieces;
+  }
+
+private:
   /** A piece of a rigid body, vertices in initial coordinates. */
   struct RigidPiece
   {
     unsigned int                    body;
     std::vector<dealii::Point<dim>> vertices;
   };
+
   void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
   void cut_rigid_body(const unsigned int body);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
-  std::vector<Piece>            pieces;
+  std::vector<Piece>            body_pieces;
   std::vector<RigidPiece>       rigid_pieces;
 };
 
