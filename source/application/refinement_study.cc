@@ -130,7 +130,7 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
   const auto values = simulation.last_values();
   for (const auto &quantity : parameters.study.quantities)
     {
-      cycle.points.emplace_back();
+      cycle.curves.emplace_back();
       cycle.numbers.push_back(unknown);
       if (!quantity.is_curve())
         {
@@ -154,10 +154,9 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
               dealii::Point<dim> position;
               for (unsigned int d = 0; d < dim; ++d)
                 position[d] = row[1 + d];
-              cycle.points.back().push_back(
+              cycle.curves.back().push_back(
                 {along.value(position), row[column], row[weight], formula.value(position)});
             }
-      std::sort(cycle.points.back().begin(), cycle.points.back().end());
     }
 }
 
@@ -227,14 +226,17 @@ RefinementStudy<dim>::compare(const unsigned int quantity, const unsigned int cy
     }
   Curve curve = q.curve;
   if (q.compares_with_last())
-    for (const auto &[coordinate, value, weight, formula] : cycles.back().points[quantity])
-      curve.emplace_back(coordinate, value);
-  if (cycles[cycle].points[quantity].empty() || (curve.empty() && q.reference.empty()))
+    {
+      for (const CurvePoint &point : cycles.back().curves[quantity])
+        curve.emplace_back(point.coordinate, point.value);
+      std::sort(curve.begin(), curve.end());
+    }
+  if (cycles[cycle].curves[quantity].empty() || (curve.empty() && q.reference.empty()))
     return {unknown, unknown};
   double of_value = 0., of_reference = 0., of_difference = 0.;
-  for (const auto &[coordinate, value, weight, formula] : cycles[cycle].points[quantity])
+  for (const auto &[coordinate, value, weight, by_formula] : cycles[cycle].curves[quantity])
     {
-      const double reference = curve.empty() ? formula : interpolate(curve, coordinate);
+      const double reference = curve.empty() ? by_formula : interpolate(curve, coordinate);
       of_value += weight * value * value;
       of_reference += weight * reference * reference;
       of_difference += weight * (value - reference) * (value - reference);

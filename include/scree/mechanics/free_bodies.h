@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/contact_points.h>
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
