@@ -61,7 +61,8 @@ private:
   std::unique_ptr<Simulation<dim>> set_up(const unsigned int cycle);
   void                             require_quantities(const Simulation<dim> &simulation) const;
   void                             measure(const Simulation<dim> &simulation, Cycle &cycle) const;
-  void       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
+  /** Puts the next grid into the parameters; false if no cell is left to divide. */
+  bool       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
   Comparison compare(const unsigned int quantity, const unsigned int cycle) const;
   void       write_table();
 
