@@ -19,8 +19,8 @@ namespace
 {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/** Level sets are dense: a grid must not need more nodal values than this (2 GB at set-up). */
-constexpr double most_level_set_values = 5e7;
+/** Level sets are dense: a grid must not need more nodal values than this (1.5 GB at set-up). */
+constexpr double most_level_set_values = 1e8;
 
 /** Index of a name; @throws UserError with the nearest one if it is not there */
 unsigned int
@@ -116,8 +116,11 @@ RefinementStudy<dim>::run()
       cycle.error_estimate         = estimate.relative;
       measure(*simulation, cycle);
       cycles.push_back(cycle);
-      if (c + 1 < n_cycles)
-        choose_next_grid(*simulation, estimate);
+      if (c + 1 < n_cycles && !choose_next_grid(*simulation, estimate))
+        {
+          log.line("No cell is left to divide: the study ends here");
+          break;
+        }
     }
   write_table();
 }
@@ -130,7 +133,7 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
   const auto values = simulation.last_values();
   for (const auto &quantity : parameters.study.quantities)
     {
-      cycle.points.emplace_back();
+      cycle.curves.emplace_back();
       cycle.numbers.push_back(unknown);
       if (!quantity.is_curve())
         {
@@ -154,15 +157,14 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
               dealii::Point<dim> position;
               for (unsigned int d = 0; d < dim; ++d)
                 position[d] = row[1 + d];
-              cycle.points.back().push_back(
+              cycle.curves.back().push_back(
                 {along.value(position), row[column], row[weight], formula.value(position)});
             }
-      std::sort(cycle.points.back().begin(), cycle.points.back().end());
     }
 }
 
 template <int dim>
-void
+bool
 RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
                                        const ErrorEstimate   &estimate)
 {
@@ -198,14 +200,22 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
   if (finest > affordable && affordable < parameters.study.finest_level)
     log.line("Cells are not divided beyond level " + std::to_string(affordable)
              + ": the level sets would need too much memory");
+  unsigned int n_divided = 0;
   for (unsigned int c = 0; c < levels.size(); ++c)
-    levels[c] = std::max(levels[c],
-                         std::min({wanted_levels[c], affordable, parameters.study.finest_level}));
+    {
+      const unsigned int level
+        = std::min({wanted_levels[c], affordable, parameters.study.finest_level});
+      n_divided += level > levels[c];
+      levels[c] = std::max(levels[c], level);
+    }
+  if (dealii::Utilities::MPI::sum(n_divided, communicator) == 0)
+    return false;
   const auto wanted = std::make_shared<const WantedLevels>(grid.wanted_levels(levels));
   parameters.grid   = parameters.grid.with(wanted);
   // The reach of contact keeps its length.
   parameters.contact.shift
     = first_shift * std::pow(2., double(wanted->finest_level) - double(first_finest_level));
+  return true;
 }
 
 template <int dim>
@@ -227,14 +237,17 @@ RefinementStudy<dim>::compare(const unsigned int quantity, const unsigned int cy
     }
   Curve curve = q.curve;
   if (q.compares_with_last())
-    for (const auto &[coordinate, value, weight, formula] : cycles.back().points[quantity])
-      curve.emplace_back(coordinate, value);
-  if (cycles[cycle].points[quantity].empty() || (curve.empty() && q.reference.empty()))
+    {
+      for (const CurvePoint &point : cycles.back().curves[quantity])
+        curve.emplace_back(point.coordinate, point.value);
+      std::sort(curve.begin(), curve.end());
+    }
+  if (cycles[cycle].curves[quantity].empty() || (curve.empty() && q.reference.empty()))
     return {unknown, unknown};
   double of_value = 0., of_reference = 0., of_difference = 0.;
-  for (const auto &[coordinate, value, weight, formula] : cycles[cycle].points[quantity])
+  for (const auto &[coordinate, value, weight, by_formula] : cycles[cycle].curves[quantity])
     {
-      const double reference = curve.empty() ? formula : interpolate(curve, coordinate);
+      const double reference = curve.empty() ? by_formula : interpolate(curve, coordinate);
       of_value += weight * value * value;
       of_reference += weight * reference * reference;
       of_difference += weight * (value - reference) * (value - reference);

@@ -36,15 +36,20 @@ public:
   void check();
 
 private:
+  /** A contact point of a curve. */
+  struct CurvePoint
+  {
+    double coordinate, value, weight;
+    double reference; //!< by the formula, if there is one
+  };
+
   /** What is known of a cycle. */
   struct Cycle
   {
-    unsigned int        n_cells, n_unknowns;
-    double              finest_edge, seconds, error_estimate;
-    std::vector<double> numbers; //!< per quantity; unused for curves
-    /** Per quantity, of a curve: coordinate, value, weight and reference (if it is a formula) of
-     * all points. */
-    std::vector<std::vector<std::array<double, 4>>> points;
+    unsigned int                         n_cells, n_unknowns;
+    double                               finest_edge, seconds, error_estimate;
+    std::vector<double>                  numbers; //!< per quantity; unused for curves
+    std::vector<std::vector<CurvePoint>> curves;  //!< per quantity; empty for numbers
   };
 
   /** The value of a quantity in a cycle and its error, NaN where there is no reference. */
@@ -56,7 +61,8 @@ private:
   std::unique_ptr<Simulation<dim>> set_up(const unsigned int cycle);
   void                             require_quantities(const Simulation<dim> &simulation) const;
   void                             measure(const Simulation<dim> &simulation, Cycle &cycle) const;
-  void       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
+  /** Puts the next grid into the parameters; false if no cell is left to divide. */
+  bool       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
   Comparison compare(const unsigned int quantity, const unsigned int cycle) const;
   void       write_table();
 
