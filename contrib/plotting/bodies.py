@@ -1,10 +1,10 @@
 """The deformed bodies, coloured by a field."""
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
-from .results import BodyMesh
 from .style import COLOURS, figure_for, nice_number_below, save, short
+from .surface import draw_section, draw_surface
 
 LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement"}
 
@@ -92,26 +92,47 @@ def extend(values, low, high):
 
 
 def draw(run, field, step, warp):
-    """Writes bodies_FIELD.png (bodies_FIELD_NNNN.png for a step asked for) and returns its path."""
+    """Writes bodies_FIELD.png (bodies_FIELD_NNNN.png for a step asked for), in 3D section_FIELD.png too; the paths."""
     if not run.body_files:
-        return None
-    name = f"bodies_{field}.png" if step is None else f"bodies_{field}_{step:04d}.png"
+        return []
+    suffix = "" if step is None else f"_{step:04d}"
     step = run.chosen_step(run.body_files, step)
     mesh = run.mesh(step)
     values = mesh.field(field)
     contact = run.contact(step) if step in run.contact_files else None
     factor = automatic_warp(mesh, contact) if warp == "auto" else warp
     deformed = mesh.points + factor * mesh.displacement
-    if mesh.dim == 3:
-        figure, axes, colours = draw_3d(mesh, deformed, values)
-    else:
-        figure, axes, colours = draw_2d(mesh, deformed[:, :2], values)
     time = run.time_of(step)
-    axes.set_title(f"{run.title}\n" + (f"time {short(time)}, " if time is not None else "")
-                   + f"displacements times {short(factor)}")
-    label = LABELS.get(field, field.replace("_", " "))
-    figure.colorbar(colours, ax=axes, label=label, extend=extend(values, *colours.get_clim()), shrink=0.85, pad=0.02)
-    return save(figure, run.directory / name)
+    title = f"{run.title}\n" + (f"time {short(time)}, " if time is not None else "") + f"displacements times {short(factor)}"
+    pictures = []
+
+    def finish(name, drawn, more=""):
+        figure, axes, colours = drawn
+        axes.set_title(title + more)
+        label = LABELS.get(field, field.replace("_", " "))
+        figure.colorbar(colours, ax=axes, label=label, extend=extend(values, *colours.get_clim()), shrink=0.85, pad=0.02)
+        pictures.append(save(figure, run.directory / f"{name}_{field}{suffix}.png"))
+
+    if mesh.dim == 2:
+        finish("bodies", draw_2d(mesh, deformed[:, :2], values))
+    else:
+        finish("bodies", draw_surface(mesh, deformed, values, limits(values)))
+        section = section_plane(mesh, contact)
+        finish("section", draw_section(mesh, deformed, values, section, limits(values)),
+               f", section {'xyz'[section[0]]} = {short(section[1])}")
+    return pictures
+
+
+def section_plane(mesh, contact):
+    """Axis and position of the section: through the centre of the contact forces, normal to the axis y or, where
+    contact acts along y, x; without contact through the middle."""
+    middle = 0.5 * (mesh.points.min(axis=0) + mesh.points.max(axis=0))
+    if contact is None or not contact["pressure"].any():
+        return 1, middle[1]
+    force = contact["weight"] * contact["pressure"]
+    normal = [np.abs(force @ contact[f"normal_{axis}"]) for axis in "xyz"]
+    axis = 0 if np.argmax(normal) == 1 else 1
+    return axis, force @ contact["xyz"[axis]] / force.sum()
 
 
 def draw_2d(mesh, deformed, values):
@@ -121,48 +142,6 @@ def draw_2d(mesh, deformed, values):
                              shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
     edges = outline(mesh)
     axes.add_collection(LineCollection(deformed[edges], colors="black", linewidths=0.8, capstyle="round"))
-    return figure, axes, colours
-
-
-def surface_3d(mesh):
-    """Faces that occur an odd number of times (n, 4); triangles repeat a point."""
-    tetrahedra, hexahedra = mesh.cells_of(BodyMesh.tetrahedron), mesh.cells_of(BodyMesh.hexahedron)
-    faces = [tetrahedra[:, list(f) + [f[2]]] for f in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))]
-    faces += [hexahedra[:, list(f)] for f in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5),
-                                              (2, 3, 7, 6), (3, 0, 4, 7))]
-    faces = np.concatenate(faces)
-    grid = np.rint(mesh.points / (4e-7 * mesh.size)).astype(np.int64)
-    _, number = np.unique(np.column_stack([grid, mesh.body]), axis=0, return_inverse=True)
-    number = np.sort(number[faces], axis=1)
-    solid = (np.diff(number, axis=1) > 0).sum(axis=1) >= 2
-    faces, number = faces[solid], number[solid]
-    _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
-    return faces[first[count % 2 == 1]]
-
-
-def draw_3d(mesh, deformed, values):
-    """The surface seen from above the x-y corner, farthest faces first; faces inside are painted over."""
-    faces = surface_3d(mesh)
-    azimuth, elevation = np.radians(-60.0), np.radians(25.0)
-    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
-    towards = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)])
-    up = np.cross(towards, right)
-    corners = deformed[faces]
-    order = np.argsort((corners @ towards).mean(axis=1))
-    faces, corners = faces[order], corners[order]
-    plane = np.stack([deformed @ right, deformed @ up], axis=1)
-    figure, axes = figure_for(plane)
-    axes.set_axis_off()
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True).clip(1e-300)
-    light = 0.65 + 0.35 * np.abs(normal @ (towards + 0.4 * up) / np.linalg.norm(towards + 0.4 * up))
-    low, high = limits(values[faces])
-    colours = PolyCollection(plane[faces], cmap="viridis", rasterized=True)
-    colours.set_array(values[faces].mean(axis=1))
-    colours.set_clim(low, high)
-    shown = colours.to_rgba(colours.get_array())
-    shown[:, :3] *= light[:, None]
-    axes.add_collection(PolyCollection(plane[faces], facecolors=shown, edgecolors=shown, linewidths=0.2))
     return figure, axes, colours
 
 

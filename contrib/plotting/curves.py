@@ -122,15 +122,29 @@ def upper_limit(table):
 
 
 def draw_pair_3d(panel, table):
-    """The pressure over the plane of the mean normal."""
+    """The pressure over the plane of the mean normal where there is contact, and arrows of the tangential traction."""
     normal = np.array([table[f"normal_{axis}"].mean() for axis in "xyz"])
     kept = [axis for axis in range(3) if axis != int(np.argmax(np.abs(normal)))]
-    points = [table["xyz"[axis]] for axis in kept]
-    dots = panel.scatter(*points, c=table["pressure"], s=6, cmap="viridis")
+    points = np.stack([table["xyz"[axis]] for axis in kept], axis=1)
+    closed = points[table["status"] > 0] if (table["status"] > 0).any() else points
+    low, high = closed.min(axis=0), closed.max(axis=0)
+    margin = 0.15 * (high - low).max() + 1e-9
+    shown = ((points > low - margin) & (points < high + margin)).all(axis=1)
+    points = points[shown]
+    spacing = np.sqrt(np.median(table["weight"][shown]))  # about the distance of points
+    size = 200.0 * spacing / ((high - low).max() + 2.0 * margin)  # points of a picture four inches wide
+    dots = panel.scatter(*points.T, c=table["pressure"][shown], s=np.clip(size, 2.0, 12.0) ** 2, marker="s",
+                         linewidths=0, cmap="viridis")
+    tau = np.stack([table[f"tau_{'xyz'[axis]}"] for axis in kept], axis=1)[shown]
+    if np.abs(tau).max() > 0.0:
+        arrows = np.flatnonzero(np.linalg.norm(tau, axis=1) > 0.0)
+        arrows = arrows[::max(1, len(arrows) // 400)]
+        panel.quiver(*points[arrows].T, *tau[arrows].T, color="white", width=0.002)
     panel.set_aspect("equal")
     panel.set_xlabel("xyz"[kept[0]])
     panel.set_ylabel("xyz"[kept[1]])
-    panel.figure.colorbar(dots, ax=panel, label="pressure p", shrink=0.85)
+    label = "pressure p" + (r", arrows: tangential traction" if np.abs(tau).max() > 0.0 else "")
+    panel.figure.colorbar(dots, ax=panel, label=label, shrink=0.85)
 
 
 def draw_history(run):

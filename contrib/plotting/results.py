@@ -179,9 +179,11 @@ class RunResults:
         return read_table(self.directory / "history.csv")
 
     def read_parameters(self):
-        """The resolved parameters as {"Section/Subsection/Key": text}."""
+        """The resolved parameters as {"Section/Subsection/Key": text}; those of a cycle are one directory up."""
         entries, path = {}, []
         file = self.directory / "parameters.prm"
+        if not file.exists():
+            file = self.directory.parent / "parameters.prm"
         for line in file.read_text(encoding="utf-8").splitlines() if file.exists() else []:
             line = line.split("#")[0].strip()
             if line.startswith("subsection "):

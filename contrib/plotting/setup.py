@@ -5,19 +5,17 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from .bodies import body_colour, draw_3d, outline
+from .bodies import body_colour, outline
 from .results import BodyMesh, read_table
 from .style import COLOURS, figure_for, save, short
+from .surface import draw_surface
 
 
 def draw(run):
     """Writes setup.png and returns its path."""
     mesh = run.mesh(0)
     if mesh.dim == 3:
-        figure, axes, colours = draw_3d(mesh, mesh.points, mesh.fields["body"])
-        figure.colorbar(colours, ax=axes, label="body", shrink=0.85)
-        axes.set_title(run.title + ": set-up")
-        return save(figure, run.directory / "setup.png")
+        return draw_3d(run, mesh)
     points = mesh.points[:, :2]
     figure, axes = figure_for(points, extra=3.5)
     handles = draw_cells(axes, mesh, points)
@@ -33,6 +31,17 @@ def draw(run):
         handles += draw_contact_surface(figure, axes, run.contact(0), mesh.size)
     axes.set_title(run.title + ": set-up")
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return save(figure, run.directory / "setup.png")
+
+
+def draw_3d(run, mesh):
+    """The bodies' surfaces in their colours."""
+    names = run.names("Bodies")
+    cmap = ListedColormap([body_colour(number) for number in range(len(names))])
+    figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, len(names) - 0.5), cmap)
+    axes.legend(handles=[Patch(color=body_colour(number), label=name) for number, name in enumerate(names)],
+                loc="center left", bbox_to_anchor=(1.01, 0.5))
+    axes.set_title(run.title + ": set-up")
     return save(figure, run.directory / "setup.png")
 
 

@@ -19,6 +19,9 @@ namespace
 {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/** Level sets are dense: a grid must not need more nodal values than this (2 GB at set-up). */
+constexpr double most_level_set_values = 5e7;
+
 /** Index of a name; @throws UserError with the nearest one if it is not there */
 unsigned int
 index_of(const std::string &name, const std::vector<std::string> &names, const std::string &where,
@@ -163,14 +166,19 @@ void
 RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
                                        const ErrorEstimate   &estimate)
 {
-  const BackgroundGrid<dim> &grid   = simulation.background_grid();
-  const unsigned int         finest = parameters.study.finest_level;
-  std::vector<unsigned int>  levels;
+  const BackgroundGrid<dim> &grid       = simulation.background_grid();
+  const double               per_level  = 1u << dim;
+  unsigned int               affordable = parameters.grid.finest_level;
+  for (double n = per_level * simulation.n_level_set_values(); n <= most_level_set_values;
+       n *= per_level)
+    ++affordable;
+  std::vector<unsigned int> levels;
   for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
     levels.push_back(grid.cells()[c].iterator->level());
+  std::vector<unsigned int> wanted_levels = levels;
   if (parameters.study.strategy == StudyStrategy::uniform)
-    for (unsigned int &level : levels)
-      level = std::min(level + 1, finest);
+    for (unsigned int &level : wanted_levels)
+      ++level;
   else
     {
       const auto   marked = largest_share(estimate.squares, parameters.study.share, communicator);
@@ -181,11 +189,18 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
           level_of_contact = std::max(level_of_contact, levels[c] + 1);
       level_of_contact = dealii::Utilities::MPI::max(level_of_contact, communicator);
       for (unsigned int c = 0; c < levels.size(); ++c)
-        {
-          const unsigned int wanted = in_contact[c] ? level_of_contact : levels[c] + marked[c];
-          levels[c]                 = std::max(levels[c], std::min(wanted, finest));
-        }
+        wanted_levels[c] = in_contact[c] ? level_of_contact : levels[c] + marked[c];
     }
+  unsigned int finest = 0;
+  for (const unsigned int level : wanted_levels)
+    finest = std::max(finest, level);
+  finest = dealii::Utilities::MPI::max(finest, communicator);
+  if (finest > affordable && affordable < parameters.study.finest_level)
+    log.line("Cells are not divided beyond level " + std::to_string(affordable)
+             + ": the level sets would need too much memory");
+  for (unsigned int c = 0; c < levels.size(); ++c)
+    levels[c] = std::max(levels[c],
+                         std::min({wanted_levels[c], affordable, parameters.study.finest_level}));
   const auto wanted = std::make_shared<const WantedLevels>(grid.wanted_levels(levels));
   parameters.grid   = parameters.grid.with(wanted);
   // The reach of contact keeps its length.

@@ -186,9 +186,11 @@ Simulation<dim>::first_guess(const double time)
                   [](const Body<dim> &body) { return body.is_rigid(); }))
     try
       {
-        guesses.push_back(
-          linear_prediction<dim>(*equilibrium, state.contact, state.displacement, unchanged,
-                                 [&](const Vector &b, Vector &x) { solve_linear_system(b, x); }));
+        guesses.push_back(linear_prediction<dim>(*equilibrium, state.contact, state.displacement,
+                                                 unchanged, [&](const Vector &b, Vector &x) {
+                                                   solve_linear_system(
+                                                     b, parameters.linear_solver.tolerance, x);
+                                                 }));
       }
     catch (const LinearSolverFailure &)
       {
@@ -279,7 +281,8 @@ Simulation<dim>::slides_away(const unsigned int body) const
 
 template <int dim>
 LinearSolveResult
-Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du)
+Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                     LinearSolver::Vector &du)
 {
   const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
   if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
@@ -304,7 +307,7 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, LinearSolver
     return &equilibrium->tangent();
   }();
   const Timings::Scope scope(timings, "linear solver");
-  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric());
+  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric(), tolerance);
 }
 
 template <int dim>
@@ -317,8 +320,8 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     const Timings::Scope scope(timings, "residual");
     equilibrium->residual(u, state.contact, r);
   };
-  hooks.solve = [&](const Vector &, const Vector &r, Vector &du) {
-    const auto solved = solve_linear_system(r, du);
+  hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
+    const auto solved = solve_linear_system(r, tolerance, du);
     record.linear_iterations += solved.iterations;
     equilibrium->shorten(du, grid.finest_size());
   };
@@ -362,6 +365,21 @@ Simulation<dim>::write_results()
     results->write_fields(record, *bulk, ghosted);
   if (is_due(output.contact_every))
     results->write_contact(record, *contact);
+}
+
+template <int dim>
+double
+Simulation<dim>::n_level_set_values() const
+{
+  double sum = 0.;
+  for (const Body<dim> &body : bodies)
+    {
+      double product = 1.;
+      for (const auto n : body.level_set.n_nodes())
+        product *= n;
+      sum += product;
+    }
+  return sum;
 }
 
 template <int dim>

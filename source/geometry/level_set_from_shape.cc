@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/level_set/fast_marching.h>
+#include <scree/level_set/reboxing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,52 +12,42 @@ using namespace dealii;
 
 namespace
 {
-// A lattice between two corners, from an even node to an even node. Corners that are such nodes up
-// to rounding stay so.
+// More nodes than these (128 MB) are stored in tiles, where the shape is a distance.
+constexpr double largest_dense_lattice = 1 << 24;
+
+// The values of the shape, dense or in tiles.
 template <int dim>
 Lattice<dim>
-lattice_around(const LatticeFrame<dim> &frame, const Point<dim> &lower, const Point<dim> &upper)
+sampled(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const NodeBox<dim> &box,
+        const double margin)
 {
-  typename Lattice<dim>::Index first, n_nodes;
+  double n_nodes = 1;
   for (unsigned int d = 0; d < dim; ++d)
-    {
-      constexpr double rounding = 1e-6;
-      const double     cell     = 2 * frame.spacing;
-      const double     s_lower  = (lower[d] - frame.origin[d]) / cell,
-                   s_upper      = (upper[d] - frame.origin[d]) / cell;
-      first[d]                  = 2 * static_cast<int>(std::floor(s_lower + rounding));
-      n_nodes[d] = 2 * static_cast<int>(std::ceil(s_upper - rounding)) - first[d] + 1;
-    }
-  return Lattice<dim>(frame, first, n_nodes);
+    n_nodes *= box.n_nodes[d];
+  if (shape.is_distance() && n_nodes > largest_dense_lattice)
+    return Lattice<dim>(
+      frame, box.lower, box.n_nodes, [&](const Point<dim> &x) { return shape.signed_distance(x); },
+      std::max(margin, Tiles<dim>::edge * frame.spacing));
+  Lattice<dim> lattice(frame, box.lower, box.n_nodes);
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    lattice.values()[i] = shape.signed_distance(lattice.node(lattice.index(i)));
+  return lattice;
 }
 
-// The part of a lattice within `margin` of its negative nodes (there is at least one).
+// The part of a box that the body needs.
 template <int dim>
-Lattice<dim>
+NodeBox<dim>
 trimmed(const Lattice<dim> &lattice, const double margin)
 {
-  Point<dim> lower = lattice.box().get_boundary_points().second,
-             upper = lattice.box().get_boundary_points().first;
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    if (lattice.values()[i] < 0)
-      {
-        const Point<dim> x = lattice.node(lattice.index(i));
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] = std::min(lower[d], x[d]);
-            upper[d] = std::max(upper[d], x[d]);
-          }
-      }
+  NodeBox<dim> result = node_box_of_body(lattice, margin);
   for (unsigned int d = 0; d < dim; ++d)
     {
-      // The contour is up to one spacing beyond the negative nodes.
-      const double width = margin + lattice.spacing();
-      lower[d]           = std::max(lower[d] - width, lattice.box().lower_bound(d));
-      upper[d]           = std::min(upper[d] + width, lattice.box().upper_bound(d));
+      const int first   = std::max(result.lower[d], lattice.lower()[d]),
+                end     = std::min(result.lower[d] + result.n_nodes[d],
+                                   lattice.lower()[d] + lattice.n_nodes()[d]);
+      result.lower[d]   = first;
+      result.n_nodes[d] = end - first;
     }
-  Lattice<dim> result = lattice_around(lattice.frame(), lower, upper);
-  for (std::size_t i = 0; i < result.values().size(); ++i)
-    result.values()[i] = lattice(result.index(i));
   return result;
 }
 } // namespace
@@ -79,14 +70,14 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
       upper[d] += width;
     }
 
-  Lattice<dim> lattice = lattice_around(frame, lower, upper);
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    lattice.values()[i] = shape.signed_distance(lattice.node(lattice.index(i)));
+  Lattice<dim> lattice = sampled(shape, frame, node_box(frame, lower, upper), width);
   require(std::any_of(lattice.values().begin(), lattice.values().end(),
                       [](const double value) { return value < 0; }),
           where, "the shape contains no node of the background grid",
           "it is empty, outside the grid, or needs smaller cells");
-  lattice = trimmed(lattice, width);
+  const NodeBox<dim> needed = trimmed(lattice, width);
+  if (needed.n_nodes != lattice.n_nodes())
+    lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
   if (!shape.is_distance() && has_contour(lattice))
     compute_distances(lattice);
   return lattice;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace scree
 {
@@ -12,13 +13,13 @@ using namespace dealii;
 
 namespace
 {
-// max sum_i |v_i| over the nodes.
+// max sum_i |v_i| over n nodes from `first` on.
 template <int dim>
 double
-largest_speed(const NodalVectors<dim> &v)
+largest_speed(const NodalVectors<dim> &v, const std::size_t first, const std::size_t n)
 {
   double result = 0;
-  for (std::size_t i = 0; i < v[0].size(); ++i)
+  for (std::size_t i = first; i < first + n; ++i)
     {
       double sum = 0;
       for (unsigned int d = 0; d < dim; ++d)
@@ -29,6 +30,37 @@ largest_speed(const NodalVectors<dim> &v)
   return result;
 }
 
+// The nodes that a motion by `duration` times `velocity` (of all nodes) concerns.
+template <int dim>
+NodeSet<dim>
+moving_nodes(const Lattice<dim> &lattice, const NodalVectors<dim> &velocity, const double duration,
+             const double band)
+{
+  const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
+  if (!std::isfinite(band))
+    return all_nodes(grid);
+  const double       half_width = band * lattice.spacing();
+  const NodeSet<dim> near       = nodes_near_contour(grid, lattice.values(), half_width);
+  double             speed      = 0;
+  for (const NodeRun &run : near.runs)
+    speed = std::max(speed, largest_speed<dim>(velocity, run.node, run.n));
+  return nodes_near_contour(grid, lattice.values(), half_width + duration * speed);
+}
+
+// The nodes' own vectors.
+template <int dim>
+NodalVectors<dim>
+packed(const NodeSet<dim> &nodes, const NodalVectors<dim> &vectors)
+{
+  NodalVectors<dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    nodes.pack(vectors[d], result[d]);
+  return result;
+}
+
+// An array whose pages cost nothing until they are written.
+using Scratch = std::unique_ptr<double[]>;
+
 // The arrays of a Runge-Kutta step and the velocities at its start, middle and end.
 template <int dim>
 class Stepper
@@ -36,60 +68,56 @@ class Stepper
 public:
   using Velocity = std::function<void(double, NodalVectors<dim> &)>;
 
-  // With `steady` the velocity is asked for once.
-  Stepper(const Lattice<dim> &lattice, const Velocity &velocity, const AdvectionScheme &scheme,
-          bool steady);
+  // `velocity` fills packed arrays; without it the velocity at the start stays.
+  Stepper(const std::vector<double> &values, const NodeSet<dim> &nodes,
+          const AdvectionScheme &scheme, const NodalVectors<dim> &at_start,
+          const Velocity &velocity);
 
-  // max sum_i |v_i| at the start of the step.
-  double speed() const;
+  // Steps for a time `duration`; returns their number.
+  unsigned int run(double duration);
 
-  void step(double time, double dt);
-
-  std::vector<double> phi; // with halo
-  HaloGrid<dim>       grid;
+  void store(std::vector<double> &values) const;
 
 private:
+  void step(double time, double dt);
+
   const NodalVectors<dim> &velocity_at(double time, NodalVectors<dim> &storage);
 
-  void stage(const NodalVectors<dim> &v, const StageWeights &weights,
-             const std::vector<double> &from, std::vector<double> &to) const;
+  void stage(const NodalVectors<dim> &v, const StageWeights &weights, const Scratch &from,
+             const Scratch &to) const;
 
-  const Velocity        &velocity;
+  const NodeSet<dim>    &nodes;
   const AdvectionScheme &scheme;
-  const bool             steady;
+  const Velocity        &velocity;
   NodalVectors<dim>      at_start, at_end, at_middle;
-  std::vector<double>    phi_1, phi_2;
+  Scratch                phi, phi_1, phi_2; // with halo
 };
 
 template <int dim>
-Stepper<dim>::Stepper(const Lattice<dim> &lattice, const Velocity &velocity,
-                      const AdvectionScheme &scheme, const bool steady)
-    : grid{lattice.n_nodes(), lattice.spacing()}
-    , velocity(velocity)
+Stepper<dim>::Stepper(const std::vector<double> &values, const NodeSet<dim> &nodes,
+                      const AdvectionScheme &scheme, const NodalVectors<dim> &at_start,
+                      const Velocity &velocity)
+    : nodes(nodes)
     , scheme(scheme)
-    , steady(steady)
+    , velocity(velocity)
+    , at_start(at_start)
 {
-  phi   = grid.with_halo(lattice.values());
-  phi_1 = phi;
-  phi_2 = phi;
-  for (auto &component : at_start)
-    component.assign(lattice.values().size(), 0.);
-  velocity(0., at_start);
-  at_end = at_middle = at_start;
-}
-
-template <int dim>
-double
-Stepper<dim>::speed() const
-{
-  return largest_speed<dim>(at_start);
+  Assert(scheme.time_order >= 1 && scheme.time_order <= 3, ExcMessage("Order 1, 2 or 3."));
+  Assert(scheme.cfl > 0, ExcMessage("Positive CFL number."));
+  for (Scratch *const array : {&phi, &phi_1, &phi_2})
+    {
+      array->reset(new double[nodes.grid.size()]);
+      nodes.load(values, array->get());
+    }
+  if (velocity)
+    at_end = at_middle = at_start;
 }
 
 template <int dim>
 const NodalVectors<dim> &
 Stepper<dim>::velocity_at(const double time, NodalVectors<dim> &storage)
 {
-  if (steady)
+  if (!velocity)
     return at_start;
   velocity(time, storage);
   return storage;
@@ -97,10 +125,10 @@ Stepper<dim>::velocity_at(const double time, NodalVectors<dim> &storage)
 
 template <int dim>
 void
-Stepper<dim>::stage(const NodalVectors<dim> &v, const StageWeights &weights,
-                    const std::vector<double> &from, std::vector<double> &to) const
+Stepper<dim>::stage(const NodalVectors<dim> &v, const StageWeights &weights, const Scratch &from,
+                    const Scratch &to) const
 {
-  hj_stage<dim>(grid, scheme.upwinding, v, weights, {{&from, &phi}}, to);
+  hj_stage<dim>(nodes, scheme.upwinding, v, weights, {{from.get(), phi.get()}}, to.get());
 }
 
 template <int dim>
@@ -122,34 +150,45 @@ Stepper<dim>::step(const double time, const double dt)
       // phi_{n+1} = 1/3 phi_n + 2/3 (phi_2 + dt L(phi_2, t + dt/2))
       stage(velocity_at(time + 0.5 * dt, at_middle), {1. / 3., dt}, phi_2, phi);
     }
-  if (!steady)
+  if (velocity)
     at_start.swap(at_end);
 }
 
 template <int dim>
 unsigned int
-advance(Lattice<dim> &lattice, const std::function<void(double, NodalVectors<dim> &)> &velocity,
-        const double duration, const AdvectionScheme &scheme, const bool steady)
+Stepper<dim>::run(const double duration)
 {
-  Assert(scheme.time_order >= 1 && scheme.time_order <= 3, ExcMessage("Order 1, 2 or 3."));
-  Assert(scheme.cfl > 0 && duration >= 0, ExcMessage("Positive CFL number and duration."));
-  Stepper<dim> stepper(lattice, velocity, scheme, steady);
-  double       time = 0, speed = stepper.speed();
+  Assert(duration >= 0, ExcMessage("The duration of an advection is negative."));
+  double       time = 0, speed = largest_speed<dim>(at_start, 0, nodes.n_nodes);
   unsigned int n_steps = 0, n_left = 1;
   for (; n_left > 0; ++n_steps, --n_left)
     {
-      if (n_steps > 0 && !steady)
-        speed = stepper.speed();
+      if (n_steps > 0 && velocity)
+        speed = largest_speed<dim>(at_start, 0, nodes.n_nodes);
       const double left  = duration - time;
-      const double bound = std::ceil(left * speed / (scheme.cfl * lattice.spacing()) - 1e-10);
+      const double bound = std::ceil(left * speed / (scheme.cfl * nodes.grid.spacing) - 1e-10);
       AssertThrow(bound < 1e9, ExcMessage("A level-set velocity is too large for its lattice."));
       n_left          = std::max(1u, static_cast<unsigned int>(std::max(bound, 1.)));
       const double dt = left / n_left;
-      stepper.step(time, dt);
+      step(time, dt);
       time += dt;
     }
-  stepper.grid.copy_nodes(stepper.phi, lattice.values());
   return n_steps;
+}
+
+template <int dim>
+void
+Stepper<dim>::store(std::vector<double> &values) const
+{
+  nodes.store(phi.get(), values);
+}
+
+template <int dim>
+void
+assert_sizes(const Lattice<dim> &lattice, const NodalVectors<dim> &vectors)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    AssertDimension(vectors[d].size(), lattice.values().size());
 }
 } // namespace
 
@@ -158,7 +197,24 @@ AdvectionCount
 advect(Lattice<dim> &lattice, const std::function<void(double, NodalVectors<dim> &)> &velocity,
        const double duration, const AdvectionScheme &scheme)
 {
-  return {advance<dim>(lattice, velocity, duration, scheme, false), 0};
+  NodalVectors<dim> everywhere;
+  for (auto &component : everywhere)
+    component.assign(lattice.values().size(), 0.);
+  velocity(0., everywhere);
+  const NodeSet<dim>      nodes    = moving_nodes<dim>(lattice, everywhere, duration, scheme.band);
+  const NodalVectors<dim> at_start = packed<dim>(nodes, everywhere);
+
+  typename Stepper<dim>::Velocity at_nodes = velocity;
+  if (nodes.n_nodes < lattice.values().size())
+    at_nodes = [&](const double time, NodalVectors<dim> &v) {
+      velocity(time, everywhere);
+      for (unsigned int d = 0; d < dim; ++d)
+        nodes.pack(everywhere[d], v[d]);
+    };
+  Stepper<dim>       stepper(lattice.values(), nodes, scheme, at_start, at_nodes);
+  const unsigned int n_steps = stepper.run(duration);
+  stepper.store(lattice.values());
+  return {n_steps, 0, nodes.n_nodes};
 }
 
 template <int dim>
@@ -166,10 +222,13 @@ AdvectionCount
 advect(Lattice<dim> &lattice, const NodalVectors<dim> &velocity, const double duration,
        const AdvectionScheme &scheme)
 {
-  return {
-    advance<dim>(
-      lattice, [&](const double, NodalVectors<dim> &v) { v = velocity; }, duration, scheme, true),
-    0};
+  assert_sizes<dim>(lattice, velocity);
+  const NodeSet<dim> nodes = moving_nodes<dim>(lattice, velocity, duration, scheme.band);
+  const typename Stepper<dim>::Velocity steady;
+  Stepper<dim>       stepper(lattice.values(), nodes, scheme, packed<dim>(nodes, velocity), steady);
+  const unsigned int n_steps = stepper.run(duration);
+  stepper.store(lattice.values());
+  return {n_steps, 0, nodes.n_nodes};
 }
 
 template <int dim>
@@ -177,39 +236,31 @@ AdvectionCount
 advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const IncrementMotion motion,
                  const AdvectionScheme &scheme)
 {
-  for (unsigned int d = 0; d < dim; ++d)
-    AssertDimension(du[d].size(), lattice.values().size());
   if (motion == IncrementMotion::frozen_velocity)
-    return {advance<dim>(
-              lattice, [&](const double, NodalVectors<dim> &v) { v = du; }, 1., scheme, true),
-            0};
+    return advect<dim>(lattice, du, 1., scheme);
 
-  largest_speed<dim>(du); // throws unless finite
-  AdvectionCount count{1, 0};
+  assert_sizes<dim>(lattice, du);
+  const NodeSet<dim> nodes = moving_nodes<dim>(lattice, du, 1., scheme.band);
+  NodalVectors<dim>  v     = packed<dim>(nodes, du);
+  largest_speed<dim>(v, 0, nodes.n_nodes); // throws unless finite
+  AdvectionCount count{1, 0, nodes.n_nodes};
   if (motion == IncrementMotion::map_velocity)
     {
-      const auto velocity = [&](const double tau, NodalVectors<dim> &v) {
-        if (tau == 0)
-          v = du;
-        else
-          count.n_unconverged
-            += map_velocity<dim>(lattice.n_nodes(), lattice.spacing(), du, tau, v);
-      };
-      count.n_steps = advance<dim>(lattice, velocity, 1., scheme, false);
+      const typename Stepper<dim>::Velocity velocity
+        = [&](const double tau, NodalVectors<dim> &at_tau) {
+            count.n_unconverged += map_velocity<dim>(nodes, du, tau, at_tau);
+          };
+      Stepper<dim> stepper(lattice.values(), nodes, scheme, v, velocity);
+      count.n_steps = stepper.run(1.);
+      stepper.store(lattice.values());
       return count;
     }
 
-  NodalVectors<dim> v = du;
-  count.n_unconverged = map_velocity<dim>(lattice.n_nodes(), lattice.spacing(), du, 1., v);
-  std::vector<double> moved(lattice.values().size());
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    {
-      Point<dim> X = lattice.node(lattice.index(i));
-      for (unsigned int d = 0; d < dim; ++d)
-        X[d] -= v[d][i];
-      moved[i] = lattice.value(X, 3);
-    }
-  lattice.values().swap(moved);
+  count.n_unconverged = map_velocity<dim>(nodes, du, 1., v);
+  std::vector<double> moved;
+  values_at_departure<dim>(nodes, lattice.values(), v, moved);
+  for (const NodeRun &run : nodes.runs)
+    std::copy_n(moved.data() + run.packed, run.n, lattice.values().data() + run.node);
   return count;
 }
 

@@ -1,6 +1,5 @@
 #include <scree/level_set/hj_weno5.h>
 
-#include <algorithm>
 #include <cmath>
 
 // The default level does not vectorise loops of unknown length.
@@ -125,138 +124,64 @@ hj_row_first_order_3d(const HjRow &row)
   stage_row<3, false>(row);
 }
 
-template <int dim>
-std::size_t
-HaloGrid<dim>::stride(const int d) const
-{
-  std::size_t result = 1;
-  for (int e = 0; e < d; ++e)
-    result *= n_nodes[e] + 2 * width;
-  return result;
-}
-
-template <int dim>
-std::size_t
-HaloGrid<dim>::first() const
-{
-  std::size_t result = 0;
-  for (int d = 0; d < dim; ++d)
-    result += width * stride(d);
-  return result;
-}
-
-template <int dim>
-std::size_t
-HaloGrid<dim>::size() const
-{
-  return stride(dim);
-}
-
 namespace
 {
-// Calls f(offset without halo, offset with halo) for the first node of every row.
-template <int dim, typename F>
+// Asks for the memory that the stencils of a run reach along the last axis: short runs are over
+// before the processor sees a pattern.
+template <int dim>
 void
-for_each_row(const HaloGrid<dim> &grid, const F &f)
+prefetch_run(const NodeSet<dim> &nodes, const NodeRun &run,
+             const std::array<const double *, 2> &phi_and_start, double *const out)
 {
-  const int         n_planes = dim == 3 ? grid.n_nodes[dim - 1] : 1;
-  const std::size_t first = grid.first(), nx = grid.n_nodes[0], ny = grid.n_nodes[1];
-  for (int k = 0; k < n_planes; ++k)
-    for (std::size_t j = 0; j < ny; ++j)
-      f((k * ny + j) * nx, first + k * grid.stride(2) + j * grid.stride(1));
+  constexpr int        line = 8; // doubles
+  const std::ptrdiff_t step = nodes.grid.stride(dim - 1);
+  for (int i = 0; i < run.n; i += line)
+    {
+      const double *const phi = phi_and_start[0] + run.with_halo + i;
+      for (int k = -nodes.grid.width; k <= nodes.grid.width; ++k)
+        __builtin_prefetch(phi + k * step);
+      __builtin_prefetch(phi_and_start[1] + run.with_halo + i);
+      __builtin_prefetch(out + run.with_halo + i, 1);
+    }
 }
 } // namespace
 
 template <int dim>
-std::vector<double>
-HaloGrid<dim>::with_halo(const std::vector<double> &values) const
-{
-  std::vector<double> result(size(), 0.);
-  for_each_row(*this, [&](const std::size_t from, const std::size_t to) {
-    std::copy_n(values.data() + from, n_nodes[0], result.data() + to);
-  });
-  extrapolate(result);
-  return result;
-}
-
-template <int dim>
 void
-HaloGrid<dim>::copy_nodes(const std::vector<double> &with_halo, std::vector<double> &values) const
-{
-  for_each_row(*this, [&](const std::size_t to, const std::size_t from) {
-    std::copy_n(with_halo.data() + from, n_nodes[0], values.data() + to);
-  });
-}
-
-template <int dim>
-void
-HaloGrid<dim>::extrapolate(std::vector<double> &with_halo) const
-{
-  double *const values = with_halo.data();
-  // f(end + k outwards) = f(end) + k (f(end) - f(end inwards))
-  const auto continue_from = [&](const std::size_t end, const std::ptrdiff_t outwards, const int n,
-                                 const std::size_t along) {
-    for (int k = 1; k <= width; ++k)
-      for (int i = 0; i < n; ++i)
-        {
-          double *const node = values + end + i * along;
-          node[k * outwards] = node[0] + k * (node[0] - node[-outwards]);
-        }
-  };
-  const int n_planes = dim == 3 ? n_nodes[dim - 1] : 1;
-  for (int k = 0; k < n_planes; ++k)
-    {
-      const std::size_t    plane = first() + k * stride(2), up = stride(1);
-      const std::ptrdiff_t row = up;
-      continue_from(plane, -1, n_nodes[1], up);
-      continue_from(plane + n_nodes[0] - 1, 1, n_nodes[1], up);
-      continue_from(plane, -row, n_nodes[0], 1);
-      continue_from(plane + (n_nodes[1] - 1) * up, row, n_nodes[0], 1);
-    }
-  if constexpr (dim == 3)
-    for (int j = 0; j < n_nodes[1]; ++j)
-      {
-        const std::size_t row = first() + j * stride(1);
-        continue_from(row, -static_cast<std::ptrdiff_t>(stride(2)), n_nodes[0], 1);
-        continue_from(row + (n_nodes[2] - 1) * stride(2), stride(2), n_nodes[0], 1);
-      }
-}
-
-template <int dim>
-void
-hj_stage(const HaloGrid<dim> &grid, const Upwinding upwinding,
+hj_stage(const NodeSet<dim> &nodes, const Upwinding upwinding,
          const std::array<std::vector<double>, dim> &velocity, const StageWeights &weights,
-         const std::array<const std::vector<double> *, 2> &phi_and_start, std::vector<double> &out)
+         const std::array<const double *, 2> &phi_and_start, double *const out)
 {
-  const auto kernel = upwinding == Upwinding::weno5
-                        ? (dim == 3 ? hj_row_weno5_3d : hj_row_weno5_2d)
-                        : (dim == 3 ? hj_row_first_order_3d : hj_row_first_order_2d);
-  HjRow      row{};
-  row.n            = grid.n_nodes[0];
+  const auto           kernel   = upwinding == Upwinding::weno5
+                                    ? (dim == 3 ? hj_row_weno5_3d : hj_row_weno5_2d)
+                                    : (dim == 3 ? hj_row_first_order_3d : hj_row_first_order_2d);
+  const HaloGrid<dim> &grid     = nodes.grid;
+  const bool           is_dense = nodes.n_nodes == nodes.runs.size() * grid.n_nodes[0];
+  HjRow                row{};
   row.start_weight = weights.start_weight;
   row.dt_over_h    = weights.dt / grid.spacing;
   row.epsilon      = 0.1 * grid.spacing * grid.spacing;
   for (int d = 0; d < dim; ++d)
     row.stride[d] = grid.stride(d);
-  for_each_row(grid, [&](const std::size_t node, const std::size_t with_halo) {
-    for (int d = 0; d < dim; ++d)
-      row.velocity[d] = velocity[d].data() + node;
-    row.phi   = phi_and_start[0]->data() + with_halo;
-    row.start = phi_and_start[1]->data() + with_halo;
-    row.out   = out.data() + with_halo;
-    kernel(row);
-  });
-  grid.extrapolate(out);
+  for (std::size_t r = 0; r < nodes.runs.size(); ++r)
+    {
+      const NodeRun &run = nodes.runs[r];
+      if (!is_dense && r + 3 < nodes.runs.size())
+        prefetch_run(nodes, nodes.runs[r + 3], phi_and_start, out);
+      row.n = run.n;
+      for (int d = 0; d < dim; ++d)
+        row.velocity[d] = velocity[d].data() + run.packed;
+      row.phi   = phi_and_start[0] + run.with_halo;
+      row.start = phi_and_start[1] + run.with_halo;
+      row.out   = out + run.with_halo;
+      kernel(row);
+    }
+  if (nodes.reaches_ends)
+    grid.extrapolate(out);
 }
 
-template struct HaloGrid<2>;
-template struct HaloGrid<3>;
-template void hj_stage<2>(const HaloGrid<2> &, Upwinding,
-                          const std::array<std::vector<double>, 2> &, const StageWeights &,
-                          const std::array<const std::vector<double> *, 2> &,
-                          std::vector<double> &);
-template void hj_stage<3>(const HaloGrid<3> &, Upwinding,
-                          const std::array<std::vector<double>, 3> &, const StageWeights &,
-                          const std::array<const std::vector<double> *, 2> &,
-                          std::vector<double> &);
+template void hj_stage<2>(const NodeSet<2> &, Upwinding, const std::array<std::vector<double>, 2> &,
+                          const StageWeights &, const std::array<const double *, 2> &, double *);
+template void hj_stage<3>(const NodeSet<3> &, Upwinding, const std::array<std::vector<double>, 3> &,
+                          const StageWeights &, const std::array<const double *, 2> &, double *);
 } // namespace scree

@@ -43,18 +43,24 @@ struct Cell
 {
   Cell(const Lattice<dim> &lattice, const Point<dim> &x);
 
-  std::size_t        first; // offset of the first node
+  Cell(const Cell &) = delete; // `values` may point into it
+
+  const double      *values; // at the first node
+  std::size_t        stride[dim];
   LagrangeWeights<n> weights[dim];
   Tensor<1, dim>     outside; // from the nearest point of the box to x
-  std::size_t        stride[dim];
+
+private:
+  void take_from_tiles(const Lattice<dim> &lattice, const std::array<int, dim> &first);
+
+  std::array<double, dim == 2 ? n * n : n * n * n> gathered; // from several tiles
 };
 
 template <int dim, int n>
 Cell<dim, n>::Cell(const Lattice<dim> &lattice, const Point<dim> &x)
-    : first(0)
 {
-  const double spacing = lattice.spacing();
-  std::size_t  step    = 1;
+  const double         spacing = lattice.spacing();
+  std::array<int, dim> first;
   for (unsigned int d = 0; d < dim; ++d)
     {
       const int    lower = lattice.lower()[d], last = lower + lattice.n_nodes()[d] - 1;
@@ -68,9 +74,49 @@ Cell<dim, n>::Cell(const Lattice<dim> &lattice, const Point<dim> &x)
         base -= 1;
       base       = std::clamp(base, lower, last - (n - 1));
       weights[d] = lagrange_weights<n>(clamped - base);
-      stride[d]  = step;
-      first += step * (base - lower);
+      first[d]   = base - lower;
+    }
+  if (lattice.is_tiled())
+    {
+      take_from_tiles(lattice, first);
+      return;
+    }
+  std::size_t position = 0, step = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      stride[d] = step;
+      position += step * first[d];
       step *= lattice.n_nodes()[d];
+    }
+  values = lattice.values().data() + position;
+}
+
+template <int dim, int n>
+void
+Cell<dim, n>::take_from_tiles(const Lattice<dim> &lattice, const std::array<int, dim> &first)
+{
+  using Storage              = Tiles<dim>;
+  const Storage    &tiles    = lattice.tiles();
+  const std::size_t position = tiles.position(first);
+  bool              in_one   = position != Storage::absent;
+  for (unsigned int d = 0; d < dim; ++d)
+    in_one &= first[d] % Storage::edge + n <= Storage::edge;
+  std::size_t step = 1;
+  for (unsigned int d = 0; d < dim; ++d, step *= in_one ? Storage::edge : n)
+    stride[d] = step;
+  if (in_one)
+    {
+      values = lattice.values().data() + position;
+      return;
+    }
+  values                    = gathered.data();
+  std::array<int, dim> node = first;
+  for (double &value : gathered)
+    {
+      const std::size_t at = tiles.position(node);
+      value = at != Storage::absent ? lattice.values()[at] : tiles.coarse_value(node);
+      for (unsigned int d = 0; d < dim && ++node[d] == first[d] + n && d + 1 < dim; ++d)
+        node[d] = first[d];
     }
 }
 
@@ -79,14 +125,13 @@ double
 interpolate(const Lattice<dim> &lattice, const Point<dim> &x)
 {
   const Cell<dim, n> cell(lattice, x);
-  const double      *values = lattice.values().data() + cell.first;
-  double             sum    = 0;
+  double             sum = 0;
   for (int k = 0; k < (dim == 3 ? n : 1); ++k)
     {
       double plane = 0;
       for (int j = 0; j < n; ++j)
         {
-          const double *row = values + j * cell.stride[1];
+          const double *row = cell.values + j * cell.stride[1];
           if constexpr (dim == 3)
             row += k * cell.stride[2];
           double line = 0;
@@ -105,14 +150,13 @@ LevelSetExpansion<dim>
 interpolate_expansion(const Lattice<dim> &lattice, const Point<dim> &x)
 {
   const Cell<dim, n> cell(lattice, x);
-  const double      *values = lattice.values().data() + cell.first;
   double f = 0, fx = 0, fy = 0, fz = 0, fxx = 0, fyy = 0, fzz = 0, fxy = 0, fxz = 0, fyz = 0;
   for (int k = 0; k < (dim == 3 ? n : 1); ++k)
     {
       double p = 0, px = 0, py = 0, pxx = 0, pyy = 0, pxy = 0;
       for (int j = 0; j < n; ++j)
         {
-          const double *row = values + j * cell.stride[1];
+          const double *row = cell.values + j * cell.stride[1];
           if constexpr (dim == 3)
             row += k * cell.stride[2];
           double l = 0, lx = 0, lxx = 0;
@@ -198,6 +242,76 @@ Lattice<dim>::Lattice(const LatticeFrame<dim> &frame, const Index &lower, const 
   node_box = BoundingBox<dim>(std::make_pair(node(lower), node(last)));
 }
 
+namespace
+{
+// Calls f(index) for all index < n, x fastest.
+template <int dim, typename F>
+void
+for_each_index(const std::array<int, dim> &n, const F &f)
+{
+  std::array<int, dim> index{};
+  while (index[dim - 1] < n[dim - 1])
+    {
+      f(index);
+      for (unsigned int d = 0; ++index[d] == n[d] && d + 1 < dim; ++d)
+        index[d] = 0;
+    }
+}
+} // namespace
+
+template <int dim>
+Lattice<dim>::Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes,
+                      const std::function<double(const Point<dim> &)> &distance, const double band)
+    : lattice_frame(frame)
+    , lower_node(lower)
+    , node_count(n_nodes)
+    , node_tiles(n_nodes)
+{
+  constexpr int edge = Tiles<dim>::edge;
+  Index         last;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      Assert(n_nodes[d] >= 4, ExcMessage("A lattice needs 4 nodes per direction."));
+      last[d] = lower[d] + n_nodes[d] - 1;
+    }
+  node_box         = BoundingBox<dim>(std::make_pair(node(lower), node(last)));
+  const auto value = [&](const Index &first, const Index &offset, const int step) {
+    Index index;
+    for (unsigned int d = 0; d < dim; ++d)
+      index[d] = lower[d] + first[d] * edge + offset[d] * step;
+    return distance(node(index));
+  };
+  auto coarse = node_tiles.coarse().begin();
+  for_each_index<dim>(node_tiles.n_coarse(),
+                      [&](const Index &at) { *coarse++ = value(at, Index{}, 0); });
+
+  // every node of a tile is within half a diagonal of a corner
+  const double near_corner = band + 0.5 * std::sqrt(double(dim)) * edge * frame.spacing;
+  Index        corners, nodes_of_tile;
+  corners.fill(2);
+  nodes_of_tile.fill(edge);
+  std::vector<double> tile_values(Tiles<dim>::n_nodes);
+  for_each_index<dim>(node_tiles.n_tiles(), [&](const Index &tile) {
+    bool near = false;
+    for_each_index<dim>(corners, [&](const Index &corner) {
+      Index at;
+      for (unsigned int d = 0; d < dim; ++d)
+        at[d] = tile[d] + corner[d];
+      near |= std::abs(node_tiles.coarse_at(at)) <= near_corner;
+    });
+    if (!near)
+      return;
+    auto to = tile_values.begin();
+    for_each_index<dim>(nodes_of_tile,
+                        [&](const Index &offset) { *to++ = value(tile, offset, 1); });
+    if (std::none_of(tile_values.begin(), tile_values.end(),
+                     [&](const double v) { return std::abs(v) <= band; }))
+      return;
+    node_tiles.store(tile);
+    node_values.insert(node_values.end(), tile_values.begin(), tile_values.end());
+  });
+}
+
 template <int dim>
 const LatticeFrame<dim> &
 Lattice<dim>::frame() const
@@ -249,6 +363,13 @@ Lattice<dim>::index(std::size_t offset) const
 {
   AssertIndexRange(offset, node_values.size());
   Index result;
+  if (is_tiled())
+    {
+      result = node_tiles.node(offset);
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += lower_node[d];
+      return result;
+    }
   for (unsigned int d = 0; d < dim; ++d)
     {
       result[d] = lower_node[d] + static_cast<int>(offset % node_count[d]);
@@ -269,6 +390,13 @@ const std::vector<double> &
 Lattice<dim>::values() const
 {
   return node_values;
+}
+
+template <int dim>
+const Tiles<dim> &
+Lattice<dim>::tiles() const
+{
+  return node_tiles;
 }
 
 template <int dim>

@@ -9,17 +9,10 @@ near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
   using Vector                     = dealii::TrilinosWrappers::MPI::Vector;
   constexpr unsigned int n_motions = RigidMotions<dim>::n_motions;
 
-  std::vector<Vector>            result;
-  std::vector<unsigned int>      first_vector;
+  std::vector<Vector> result(n_motions, Vector(fields.owned(), fields.grid.communicator()));
   std::vector<RigidMotions<dim>> motions;
   for (const auto &body : bodies)
-    {
-      motions.emplace_back(body);
-      first_vector.push_back(result.size());
-      if (!body.is_rigid())
-        result.resize(result.size() + n_motions,
-                      Vector(fields.owned(), fields.grid.communicator()));
-    }
+    motions.emplace_back(body);
   for (unsigned int a = 0; a < fields.cells().size(); ++a)
     {
       const ActiveCell &cell     = fields.cells()[a];
@@ -33,7 +26,7 @@ near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
               const auto value = motions[cell.body].motion(m, position);
               for (unsigned int d = 0; d < dim; ++d)
                 if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                  result[first_vector[cell.body] + m](fields.nodes(a)[i] + d) = value[d];
+                  result[m](fields.nodes(a)[i] + d) = value[d];
             }
         }
     }

@@ -1,22 +1,19 @@
-#include <scree/solver/bordered_preconditioner.h>
 #include <scree/solver/linear_solver.h>
+#include <scree/solver/multigrid.h>
 #include <scree/solver/mumps.h>
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_precondition.h>
 
 #include <Amesos.h>
 #include <Epetra_LinearProblem.h>
 #include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
-#include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <ml_MultiLevelPreconditioner.h>
 #include <sstream>
 
 namespace scree
@@ -72,51 +69,6 @@ relative_residual(const LinearSolver::Matrix &A, const LinearSolver::Vector &x,
   return A.residual(r, x, b) / b.l2_norm();
 }
 
-/**
- * Smoothed aggregation with Chebyshev smoothers; `modes` are the near null space, none means the
- * translations of unknowns that are numbered node by node.
- */
-void
-initialize_amg(TrilinosWrappers::PreconditionAMG &amg, const Epetra_CrsMatrix &A,
-               const std::vector<LinearSolver::Vector> &modes, const unsigned int dimension,
-               const LinearSolverParameters &parameters, const bool smooth_by_ilu)
-{
-  const Epetra_Map &rows = A.RowMap();
-  // ML needs whole nodes on every process.
-  int has_whole_nodes = rows.NumMyElements() % dimension == 0, whole_nodes = 0;
-  rows.Comm().MinAll(&has_whole_nodes, &whole_nodes, 1);
-
-  Teuchos::ParameterList list;
-  ML_Epetra::SetDefaults("SA", list);
-  list.set("ML output", 0);
-  if (smooth_by_ilu)
-    {
-      list.set("smoother: type", "IFPACK");
-      list.set("smoother: ifpack type", "ILU");
-      list.set("smoother: ifpack level-of-fill", 1.);
-    }
-  else
-    {
-      list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", static_cast<int>(parameters.amg_smoother_sweeps));
-    }
-  list.set("coarse: type", "Amesos-KLU");
-  list.set("coarse: max size", 2000);
-  list.set("aggregation: threshold", parameters.amg_aggregation_threshold);
-  list.set("PDE equations", whole_nodes ? static_cast<int>(dimension) : 1);
-
-  Epetra_MultiVector null_space(rows, std::max<int>(1, modes.size()));
-  for (unsigned int k = 0; k < modes.size(); ++k)
-    std::copy(modes[k].begin(), modes[k].begin() + rows.NumMyElements(), null_space[k]);
-  if (!modes.empty())
-    {
-      list.set("null space: type", "pre-computed");
-      list.set("null space: dimension", static_cast<int>(modes.size()));
-      list.set("null space: vectors", null_space.Values());
-    }
-  amg.initialize(A, list);
-}
-
 /** A number with 1/2 <= |s| <= 3/2 that looks random but depends on the index alone. */
 double
 scattered(const int index)
@@ -163,9 +115,10 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "Iterative: more iterations than this are a failure.");
   const ParameterSection amg
     = section.subsection("Multigrid", "The preconditioner, algebraic multigrid by ML.");
-  amg.entry("Smoother", amg_smoother, smoother_names,
-            "automatic: Chebyshev for degree 1, ILU(1) for degree 2, whose thin cuts Chebyshev "
-            "smooths badly.");
+  amg.entry(
+    "Smoother", amg_smoother, smoother_names,
+    "automatic: Chebyshev for degree 1; for degree 2, whose thin cuts Chebyshev smooths badly, "
+    "ILU(1) in 2D and ILU(0) in 3D.");
   amg.entry("Smoother sweeps", amg_smoother_sweeps, Patterns::Integer(1),
             "Degree of the Chebyshev smoother.");
   amg.entry("Aggregation threshold", amg_aggregation_threshold, Patterns::Double(0., 1.),
@@ -357,7 +310,8 @@ LinearSolver::is_direct(const std::size_t n_unknowns) const
 }
 
 LinearSolveResult
-LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric)
+LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric,
+                    const double tolerance)
 {
   Timer        timer;
   const double norm = b.l2_norm();
@@ -371,7 +325,7 @@ LinearSolver::solve(const Matrix &A, Vector &x, const Vector &b, const bool symm
   else
     try
       {
-        result = solve_iteratively(A, x, b, symmetric);
+        result = solve_iteratively(A, x, b, symmetric, std::max(tolerance, parameters.tolerance));
       }
     catch (const LinearSolverFailure &)
       {
@@ -405,62 +359,59 @@ LinearSolver::solve_directly(const Matrix &A, Vector &x, const Vector &b, const 
 }
 
 LinearSolveResult
-LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
-                                const bool symmetric) const
+LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b, const bool symmetric,
+                                const double tolerance)
 {
   const bool        cg = parameters.krylov_method == KrylovMethod::automatic
                            ? symmetric
                            : parameters.krylov_method == KrylovMethod::cg;
   LinearSolveResult result;
-  result.method = cg ? "CG+AMG" : "GMRES+AMG";
-  x             = 0;
-  if (b.l2_norm() == 0)
+  result.method     = cg ? "CG+AMG" : "GMRES+AMG";
+  x                 = 0;
+  const double norm = b.l2_norm();
+  if (norm == 0)
     return result;
 
-  for (const Vector &mode : near_null_space)
-    AssertThrow(mode.locally_owned_elements() == b.locally_owned_elements(),
-                ExcMessage("The near null space is not distributed as the rows of the matrix."));
-
-  SolverControl control(parameters.max_iterations, parameters.tolerance * b.l2_norm());
-  try
+  for (bool is_solved = false; !is_solved;)
     {
-      const auto iterate = [&](const auto &preconditioner) {
-        if (cg)
-          SolverCG<Vector>(control).solve(A, x, b, preconditioner);
-        else
-          // Preconditioned from the right, the iteration watches the true residual.
-          SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
-            .solve(A, x, b, preconditioner);
-      };
-      TrilinosWrappers::PreconditionAMG amg;
-      const auto                        initialize = [&](const Epetra_CrsMatrix &matrix) {
-        initialize_amg(amg, matrix, near_null_space, dimension, parameters, smooth_by_ilu);
-      };
-      if (n_border == 0)
+      const bool is_new = !multigrid || !multigrid->fits(A);
+      if (is_new)
+        multigrid = std::make_unique<Multigrid>(
+          A, Multigrid::Settings{dimension, n_border, smooth_by_ilu, parameters}, near_null_space);
+      SolverControl control(
+        is_new ? parameters.max_iterations
+               : std::min(parameters.max_iterations, multigrid->expected_iterations(tolerance)),
+        tolerance * norm);
+      try
         {
-          initialize(A.trilinos_matrix());
-          iterate(amg);
+          if (cg)
+            SolverCG<Vector>(control).solve(A, x, b, *multigrid);
+          else
+            // Preconditioned from the right, the iteration watches the true residual.
+            SolverGMRES<Vector>(control, SolverGMRES<Vector>::AdditionalData(gmres_basis + 2, true))
+              .solve(A, x, b, *multigrid);
+          is_solved = true;
         }
-      else
+      catch (const SolverControl::NoConvergence &)
         {
-          BorderedPreconditioner bordered(A.trilinos_matrix(), n_border);
-          initialize(bordered.inner_matrix());
-          bordered.set_inner(amg.trilinos_operator());
-          iterate(bordered);
+          if (is_new)
+            fail(result.method, " did not converge in ", control.last_step(),
+                 " iterations (relative residual ", control.last_value() / norm, ")");
         }
+      catch (const std::exception &error)
+        {
+          if (is_new)
+            fail(result.method, " failed: ", error.what());
+          x = 0;
+        }
+      result.iterations += control.last_step();
+      if (!is_solved)
+        multigrid.reset();
+      else if (!multigrid->is_worth_keeping(control.last_step(), control.last_value() / norm))
+        multigrid.reset();
     }
-  catch (const SolverControl::NoConvergence &)
-    {
-      fail(result.method, " did not converge in ", control.last_step(),
-           " iterations (relative residual ", control.last_value() / b.l2_norm(), ")");
-    }
-  catch (const std::exception &error)
-    {
-      fail(result.method, " failed: ", error.what());
-    }
-  result.iterations        = control.last_step();
   result.relative_residual = relative_residual(A, x, b);
-  if (!(result.relative_residual <= 100 * parameters.tolerance))
+  if (!(result.relative_residual <= 100 * tolerance))
     fail(result.method, " ended with a relative residual of ", result.relative_residual);
   return result;
 }

@@ -18,6 +18,9 @@ constexpr unsigned int max_work_evaluations = 6;
 constexpr double       divergence_factor    = 1e8;
 constexpr double       round_off_factor     = 100;
 constexpr double       round_off_increment  = 1e-10;
+constexpr double       forcing_factor       = 0.9;
+constexpr double       forcing_safeguard    = 0.1;
+constexpr double       final_linear_factor  = 0.1;
 
 const EnumNames<LineSearch> line_search_names
   = {{LineSearch::none, "none"}, {LineSearch::residual, "residual"}, {LineSearch::work, "work"}};
@@ -28,6 +31,23 @@ in_words(const char *format, const unsigned int n, const double residual, const 
   char text[200];
   std::snprintf(text, sizeof(text), format, n, residual, tolerance);
   return text;
+}
+
+/** The relative tolerance of the next linear system (Eisenstat, Walker, choice 2). */
+double
+forcing_term(const std::vector<double> &residuals, const double last, const double tolerance,
+             const double loosest)
+{
+  const std::size_t n   = residuals.size();
+  double            eta = loosest;
+  if (n >= 2)
+    {
+      eta = forcing_factor * std::pow(residuals[n - 1] / residuals[n - 2], 2);
+      if (forcing_factor * last * last > forcing_safeguard)
+        eta = std::max(eta, forcing_factor * last * last);
+    }
+  return std::clamp(eta, std::min(loosest, final_linear_factor * tolerance / residuals[n - 1]),
+                    loosest);
 }
 
 /** Whether the residual ceased to fall at the level of round-off, see the class documentation. */
@@ -51,6 +71,10 @@ NewtonParameters::declare(const ParameterSection &section)
                 "Added to the relative tolerance times the forces [force].");
   section.entry("Maximum iterations", max_iterations, dealii::Patterns::Integer(1),
                 "A load step that needs more is cut.");
+  section.entry(
+    "Loosest linear tolerance", loosest_linear_tolerance, dealii::Patterns::Double(0., 0.1),
+    "Iterative linear solvers are asked for this at first and for more as the iteration "
+    "converges (Eisenstat and Walker); 0: always for Linear/Tolerance [-].");
   section.entry("Line search", line_search, line_search_names,
                 "work: shortens a step that overshoots, judged by the work of the residual on the "
                 "increment. residual: halves a step until the residual falls. none: full steps.");
@@ -152,6 +176,7 @@ Newton::solve(Vector &u) const
   NewtonResult    result;
   NewtonIteration iteration;
   Vector          r(u), du(u);
+  double          linear_tolerance = parameters.loosest_linear_tolerance;
   hooks.residual(u, r);
   iteration.residual = r.l2_norm();
 
@@ -188,9 +213,11 @@ Newton::solve(Vector &u) const
         return ended_as(NewtonStatus::max_iterations,
                         told("not converged in %u iterations, |r| = %.3e (tolerance %.3e)"));
 
+      linear_tolerance = forcing_term(result.residuals, linear_tolerance, iteration.tolerance,
+                                      parameters.loosest_linear_tolerance);
       try
         {
-          hooks.solve(u, r, du);
+          hooks.solve(u, r, linear_tolerance, du);
         }
       catch (const LinearSolverFailure &failure)
         {

@@ -169,5 +169,22 @@ TEST(LevelSetFromShape, ABodyMayFillTheGrid)
                                     frame<2>(0.1, 1), 0);
   EXPECT_EQ(lattice.value({0.3, 0.4}, 2), -1);
 }
+// A ball of 320 spacings: more nodes than a dense lattice may have.
+TEST(ReleaseLevelSetFromShape, StoresABigBodyInTiles)
+{
+  const double  h = 1. / 320;
+  const Ball<3> ball(Point<3>(0.1, 0, 0), 0.5);
+  const auto    lattice = make_lattice(ball, frame<3>(h, 2), 6 * h);
+  EXPECT_TRUE(lattice.is_tiled());
+  EXPECT_LT(lattice.values().size(), 0.4 * 334. * 334 * 334);
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      Tensor<1, 3> ray({std::sin(0.3 + 7.1 * i), std::cos(2.2 * i), std::sin(3.3 * i)});
+      ray /= ray.norm();
+      const Point<3> x = Point<3>(0.1, 0, 0) + (0.5 + 5 * h * std::sin(1.7 * i)) * ray;
+      EXPECT_NEAR(lattice.value(x, 3), ball.signed_distance(x), 1e-4 * h);
+    }
+  EXPECT_NEAR(lattice.value(Point<3>(0.1, 0.02, 0), 2), -0.48, 8 * h);
+}
 } // namespace
 } // namespace scree

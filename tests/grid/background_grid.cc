@@ -161,6 +161,48 @@ TEST(BackgroundGrid, GrowsWithTheDistanceFromContact)
   check_grading(RefinedGrid<3>(two_balls<3>(4, 0)), 2., 0.5);
 }
 
+/** A grid made from another whose cells near a point are wanted `more` levels finer. */
+template <int dim>
+void
+check_wanted_levels(const BackgroundGrid<dim> &old, const unsigned int more)
+{
+  std::vector<unsigned int> levels;
+  for (unsigned int c = 0; c < old.n_owned_cells(); ++c)
+    levels.push_back(old.cells()[c].iterator->level()
+                     + (centre(old.cells()[c]).distance(Point<dim>()) < 0.3 ? more : 0));
+  const auto          wanted = std::make_shared<const WantedLevels>(old.wanted_levels(levels));
+  BackgroundGrid<dim> grid(old.grid_parameters().with(wanted), MPI_COMM_WORLD);
+  grid.refine({}, {});
+  EXPECT_DOUBLE_EQ(grid.finest_size() * (1u << more), old.finest_size());
+  check_locate(grid);
+  // All that is wanted is there; what is finer than wanted has a finer neighbour.
+  unsigned int n_wanted = 0;
+  for (const auto &cell : grid.cells())
+    {
+      const auto location = old.locate(centre(cell));
+      if (location.local_cell < 0 || location.local_cell >= int(old.n_owned_cells()))
+        continue;
+      const unsigned int level = cell.iterator->level();
+      EXPECT_GE(level, levels[location.local_cell]);
+      n_wanted += level == levels[location.local_cell];
+    }
+  EXPECT_GT(n_wanted, grid.cells().size() / (4 * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)));
+  if (more == 0)
+    {
+      EXPECT_EQ(grid.triangulation().n_global_active_cells(),
+                old.triangulation().n_global_active_cells());
+    }
+}
+
+TEST(BackgroundGridMPI, WantedLevels)
+{
+  for (const unsigned int more : {0, 1, 2})
+    {
+      check_wanted_levels(RefinedGrid<2>(two_balls<2>(5, 1)).grid, more);
+      check_wanted_levels(RefinedGrid<3>(two_balls<3>(3, 1)).grid, more);
+    }
+}
+
 TEST(BackgroundGrid, CellSizeLimit)
 {
   const RefinedGrid<2> model(two_balls<2>(6, 0, "set Cell size limit = if(y > 0.5, 0.0625, 10)\n"));

@@ -81,11 +81,12 @@ right_hand_side(const int n, const Upwinding upwinding, const F &phi, const V &v
 {
   auto                lattice = sampled<dim>(n, phi);
   const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
-  const auto          from = grid.with_halo(lattice.values());
-  std::vector<double> to(grid.size());
-  hj_stage<dim>(grid, upwinding, vectors<dim>(lattice, velocity), {0., 1.}, {{&from, &from}}, to);
-  std::vector<double> moved(lattice.values().size());
-  grid.copy_nodes(to, moved);
+  const NodeSet<dim>  nodes = all_nodes(grid);
+  std::vector<double> from(grid.size()), to(grid.size()), moved(lattice.values().size());
+  nodes.load(lattice.values(), from.data());
+  hj_stage<dim>(nodes, upwinding, vectors<dim>(lattice, velocity), {0., 1.},
+                {{from.data(), from.data()}}, to.data());
+  nodes.store(to.data(), moved);
   for (std::size_t i = 0; i < moved.size(); ++i)
     lattice.values()[i] = moved[i] - lattice.values()[i];
   return lattice;
@@ -190,14 +191,16 @@ TEST(HjWeno5, EqualsThePublishedFormulaOnRoughData)
   const auto rough = [](const double i) { return std::sin(12.3 * i * i) + std::abs(i - 0.2); };
   const auto rate  = [&](const double v) {
     HaloGrid<2>         grid{{{9, 4}}, 1.};
-    std::vector<double> values(36), to(grid.size());
+    std::vector<double> values(36), from(grid.size()), to(grid.size());
     for (int i = 0; i < 36; ++i)
       values[i] = rough(i % 9);
-    const auto                         from = grid.with_halo(values);
+    const NodeSet<2> nodes = all_nodes(grid);
+    nodes.load(values, from.data());
     std::array<std::vector<double>, 2> velocity;
     velocity[0].assign(36, v);
     velocity[1].assign(36, 0.);
-    hj_stage<2>(grid, Upwinding::weno5, velocity, {0., 1.}, {{&from, &from}}, to);
+    hj_stage<2>(nodes, Upwinding::weno5, velocity, {0., 1.}, {{from.data(), from.data()}},
+                to.data());
     return values[13] - to[grid.first() + 4 + grid.stride(1)];
   };
   std::array<double, 7> stencil;

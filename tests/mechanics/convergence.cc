@@ -20,7 +20,7 @@ smallest_order(const std::string &body, const unsigned int degree, const std::st
       EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", level, refinement)
                                 + degree_text(degree) + bodies_text({{"body", body}})
                                 + solver_text(1e-11));
-      const double        error = Manufactured::solve(model);
+      const double        error = Manufactured<2>::solve(model);
       const double        order = std::log2(last / error);
       std::cout << "  " << name << ", Q" << degree << ", h = " << model.cut.grid.finest_size()
                 << ": L2 error " << error;
@@ -38,14 +38,14 @@ smallest_order(const std::string &body, const unsigned int degree, const std::st
 std::string
 angled_body()
 {
-  return Manufactured::body(half_space_text("0.0123, 0.2345", "0.2923717, 0.9563048"),
-                            {"x-", "x+", "y-"});
+  return Manufactured<2>::body(half_space_text("0.0123, 0.2345", "0.2923717, 0.9563048"),
+                               {"x-", "x+", "y-"});
 }
 
 std::string
 disc()
 {
-  return Manufactured::body(ball_text("0.0123, -0.0345", 0.8123), {});
+  return Manufactured<2>::body(ball_text("0.0123, -0.0345", 0.8123), {});
 }
 
 TEST(Convergence, HalfPlaneAtAnAngle)
@@ -74,7 +74,7 @@ TEST(Convergence, HangingCutCells)
           grid_text("-1, -1", "1, 1", "4, 4", 2 + i, graded_text(1 + i, limit))
           + degree_text(degree) + bodies_text({{"body", disc()}}) + solver_text(1e-11));
         EXPECT_TRUE(model.cut.grid.triangulation().has_hanging_nodes());
-        errors[i] = Manufactured::solve(model);
+        errors[i] = Manufactured<2>::solve(model);
       }
     std::cout << "  graded disc, Q" << degree << ": L2 errors " << errors[0] << ", " << errors[1]
               << "\n";
@@ -94,8 +94,8 @@ TEST(ConvergenceMPI, EqualsOneProcess)
                                + solver_text(1e-11);
       EquilibriumModel<2> together(text), alone(text, MPI_COMM_SELF);
       EXPECT_EQ(together.cut.fields->n_dofs(), alone.cut.fields->n_dofs());
-      const double error = Manufactured::solve(alone);
-      EXPECT_NEAR(Manufactured::solve(together), error, 1e-9 * error);
+      const double error = Manufactured<2>::solve(alone);
+      EXPECT_NEAR(Manufactured<2>::solve(together), error, 1e-9 * error);
       const auto &energies = together.equilibrium.energies(),
                  &others   = alone.equilibrium.energies();
       EXPECT_NEAR(energies.strain, others.strain, 1e-9 * others.strain);

@@ -82,7 +82,7 @@ struct EquilibriumModel
   {
     Newton::Hooks hooks;
     hooks.residual = [&](const Vector &u, Vector &r) { equilibrium.residual(u, state.contact, r); };
-    hooks.solve    = [&](const Vector &, const Vector &r, Vector &du) {
+    hooks.solve    = [&](const Vector &, const Vector &r, double, Vector &du) {
       linear_iterations
         = linear_solver.solve(equilibrium.tangent(), du, r, equilibrium.is_symmetric()).iterations;
       equilibrium.shorten(du, cut.grid.finest_size());
@@ -94,8 +94,9 @@ struct EquilibriumModel
     Vector u = state.displacement;
     equilibrium.set_time(time, u);
     if (state.time > 0. && cut.fields->n_trailing() > 0)
-      u = linear_prediction<dim>(equilibrium, state.contact, state.displacement, u,
-                                 [&](const Vector &b, Vector &x) { hooks.solve(b, b, x); });
+      u = linear_prediction<dim>(
+        equilibrium, state.contact, state.displacement, u,
+        [&](const Vector &b, Vector &x) { hooks.solve(b, b, input.linear.tolerance, x); });
     const NewtonResult result = Newton(input.newton, hooks).solve(u);
     if (result.converged())
       {

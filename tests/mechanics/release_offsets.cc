@@ -31,9 +31,9 @@ offsets(const unsigned int n, const unsigned int degree,
     {
       EquilibriumModel<2> model(
         grid_text("-1, -1", "1, 1", "6, 6", level) + degree_text(degree)
-        + bodies_text({{"body", Manufactured::body(shape(double(i) / n * h), faces)}})
+        + bodies_text({{"body", Manufactured<2>::body(shape(double(i) / n * h), faces)}})
         + solver_text(1e-8, "iterative"));
-      errors.push_back(Manufactured::solve(model));
+      errors.push_back(Manufactured<2>::solve(model));
       iterations.push_back(model.linear_iterations);
     }
   std::vector<double> sorted(errors);

@@ -31,7 +31,7 @@ scalar(const std::function<double(double)> &f, const std::function<double(double
 {
   Newton::Hooks hooks;
   hooks.residual = [=](const Vector &u, Vector &r) { r(0) = -scale * f(u(0)); };
-  hooks.solve    = [=](const Vector &u, const Vector &r, Vector &du) {
+  hooks.solve    = [=](const Vector &u, const Vector &r, double, Vector &du) {
     du(0) = r(0) / (scale * derivative(u(0)));
   };
   hooks.reference = [=]() { return scale; };
@@ -55,7 +55,7 @@ two_equations()
     r(0) = 3 - u(0) * u(0) - u(1);
     r(1) = 9 - u(0) - u(1) * u(1) * u(1);
   };
-  hooks.solve = [](const Vector &u, const Vector &r, Vector &du) {
+  hooks.solve = [](const Vector &u, const Vector &r, double, Vector &du) {
     const double a = 2 * u(0), b = 1, c = 1, d = 3 * u(1) * u(1), det = a * d - b * c;
     du(0) = (d * r(0) - b * r(1)) / det;
     du(1) = (a * r(1) - c * r(0)) / det;
@@ -210,7 +210,7 @@ TEST(Newton, FailuresAreTold)
   const auto one = [](double) { return 1.; };
 
   Newton::Hooks hooks = scalar([](double u) { return u - 1; }, one);
-  hooks.solve         = [](const Vector &, const Vector &, Vector &) {
+  hooks.solve         = [](const Vector &, const Vector &, double, Vector &) {
     throw LinearSolverFailure("the matrix is singular");
   };
   Vector       u      = vector({0.});

@@ -69,6 +69,9 @@ public:
     return *contact;
   }
 
+  /** Nodal values of the level sets of all bodies. */
+  double n_level_set_values() const;
+
   unsigned int n_unknowns() const
   {
     return fields->n_dofs();
@@ -85,8 +88,10 @@ private:
   typename Equilibrium<dim>::Vector first_guess(const double time);
   bool                              solve_step(const double time);
   NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
-  /** Solves K du = r, condensed to the contact points where that pays. */
-  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, LinearSolver::Vector &du);
+  /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
+   * where that pays. */
+  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                          LinearSolver::Vector &du);
   void                report_step(const double wall_time);
   [[noreturn]] void   throw_slides_away(const unsigned int body) const;
   std::vector<double> contact_force_on_bodies() const;

@@ -4,6 +4,7 @@
 #include <scree/level_set/lattice.h>
 
 #include <functional>
+#include <limits>
 
 namespace scree
 {
@@ -17,6 +18,13 @@ struct AdvectionScheme
   Upwinding    upwinding  = Upwinding::weno5;
   unsigned int time_order = 3;   // 1, 2 or 3: TVD Runge-Kutta (Shu & Osher, 1988)
   double       cfl        = 0.5; // dt sum_i |v_i| / h, at most
+  /**
+   * Half width in spacings of the narrow band: only nodes with |phi| up to it plus the way that the
+   * contour may go (duration times speed, or |du|) move, the others keep their values. The error
+   * enters at the edge of the band, by 9 nodes per step of order 3; so 10 and more, for a level set
+   * that is a distance. Infinite: all nodes.
+   */
+  double band = std::numeric_limits<double>::infinity();
 };
 
 /** How a level set follows a displacement increment du. */
@@ -32,6 +40,7 @@ struct AdvectionCount
 {
   unsigned int n_steps;
   std::size_t  n_unconverged; // nodes whose back-trace failed, summed over stages: should be 0
+  std::size_t  n_nodes;       // that moved
 };
 
 /**
@@ -53,8 +62,8 @@ AdvectionCount advect(Lattice<dim> &lattice, const NodalVectors<dim> &velocity, 
 
 /**
  * Moves the level set by the increment `x = X + du(X)`, du nodal (length, finite at all nodes). The
- * semi-Lagrangian update interpolates phi with cubic polynomials and has no step bound; `scheme`
- * is for the other two. Back-trace: see map_velocity().
+ * semi-Lagrangian update interpolates phi with cubic polynomials and has no step bound; of `scheme`
+ * it takes the band only. Back-trace: see map_velocity().
  */
 template <int dim>
 AdvectionCount advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du,

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <vector>
+#include <scree/level_set/halo_grid.h>
 
 namespace scree
 {
@@ -11,37 +9,6 @@ enum class Upwinding
 {
   first_order, // one-sided differences
   weno5        // Hamilton-Jacobi WENO5 (Jiang & Peng, SIAM J. Sci. Comput. 21, 2000)
-};
-
-/**
- * A dense uniform grid whose arrays carry three more nodes beyond each end, the halo that the
- * stencils reach into; x fastest.
- */
-template <int dim>
-struct HaloGrid
-{
-  static constexpr int width = 3; // nodes of halo at each end
-
-  std::array<int, dim> n_nodes; // without halo
-  double               spacing; // length
-
-  /** The step between neighbours in direction d, in an array with halo. */
-  std::size_t stride(int d) const;
-
-  /** The position of node (0, ..., 0) in an array with halo. */
-  std::size_t first() const;
-
-  /** The length of an array with halo. */
-  std::size_t size() const;
-
-  /** Copies nodal values (x fastest, no halo) into an array with halo and fills the halo. */
-  std::vector<double> with_halo(const std::vector<double> &values) const;
-
-  /** Copies back without halo. */
-  void copy_nodes(const std::vector<double> &with_halo, std::vector<double> &values) const;
-
-  /** Continues the array linearly into its halo, direction by direction; not into the corners. */
-  void extrapolate(std::vector<double> &with_halo) const;
 };
 
 /**
@@ -55,9 +22,10 @@ struct StageWeights
 };
 
 /**
- * One stage with `L(phi) = -v . grad phi`, upwinded by the sign of v in each direction. `velocity`
- * are nodal arrays without halo (length per time); `phi`, `start` (phi_n) and `out` carry a halo,
- * which must be filled in phi and is filled in out. `out` may be `start`, not `phi`.
+ * One stage with `L(phi) = -v . grad phi` at the nodes of a set, upwinded by the sign of v in each
+ * direction. `velocity` are arrays of the set's nodes, packed (length per time); phi, start (phi_n)
+ * and `out` carry a halo, which must be filled in phi and is filled in out if the set reaches it.
+ * Other nodes of `out` are left alone. `out` may be start, not phi.
  *
  * The WENO weights use `epsilon = 0.1 h^2` beside the smoothness `13 (a - b)^2 + 3 (...)^2` of
  * undivided second differences a, b, ..., for slopes of order one as a distance has them. A kink
@@ -66,8 +34,7 @@ struct StageWeights
  * and L1/perimeter 0.128 instead of -0.21 % and 0.091).
  */
 template <int dim>
-void hj_stage(const HaloGrid<dim> &grid, Upwinding upwinding,
+void hj_stage(const NodeSet<dim> &nodes, Upwinding upwinding,
               const std::array<std::vector<double>, dim> &velocity, const StageWeights &weights,
-              const std::array<const std::vector<double> *, 2> &phi_and_start,
-              std::vector<double>                              &out);
+              const std::array<const double *, 2> &phi_and_start, double *out);
 } // namespace scree

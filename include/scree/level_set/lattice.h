@@ -1,10 +1,13 @@
 #pragma once
 
+#include <scree/level_set/tiles.h>
+
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -33,7 +36,9 @@ struct LevelSetExpansion
 };
 
 /**
- * A dense uniform Cartesian lattice of nodal values, x fastest, with Lagrange interpolation.
+ * A uniform Cartesian lattice of nodal values with Lagrange interpolation. It is dense, or it
+ * stores tiles of 8^dim nodes in a band around the contour and elsewhere every 8th node, between
+ * which it is multilinear: a big body in 3D. Evaluation is the same for both.
  *
  * Degrees 1 and 2 interpolate in cells of k x k spacings whose corners are multiples of k in the
  * global numbering of the frame: the FE_Q(k) interpolant on the finest background cells if
@@ -56,6 +61,17 @@ public:
    */
   Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes);
 
+  /**
+   * The same box in tiles, with the values of `distance`, a signed distance or any function with
+   * slopes of at most 1. Tiles are stored where some node has |distance| <= band (length); from 7
+   * spacings on the sign of the interpolant is right everywhere. `distance` is evaluated at every
+   * 8th node and in the tiles that these show to be candidates.
+   */
+  Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes,
+          const std::function<double(const dealii::Point<dim> &)> &distance, double band);
+
+  bool is_tiled() const;
+
   const LatticeFrame<dim> &frame() const;
 
   double spacing() const;
@@ -73,18 +89,27 @@ public:
 
   bool contains(const Index &index) const;
 
-  /** Position of a node in values(), and back. */
+  /**
+   * Position of a stored node in values(), and back. A tile may reach beyond the box: then the
+   * index has no use but to be a position in space.
+   */
   std::size_t offset(const Index &index) const;
 
   Index index(std::size_t offset) const;
 
+  /** The value of a stored node. */
   double &operator()(const Index &index);
 
+  /** The value of any node. */
   double operator()(const Index &index) const;
 
+  /** The stored values: all nodes, x fastest, or tile by tile. */
   std::vector<double> &values();
 
   const std::vector<double> &values() const;
+
+  /** Which nodes are stored if not all: nodes counted from lower(). */
+  const Tiles<dim> &tiles() const;
 
   /** The value of the node at `x`, which must be a node of the frame (rounded to the nearest). */
   double nodal_value(const dealii::Point<dim> &x) const;
@@ -103,6 +128,7 @@ private:
   Index                    node_count;
   dealii::BoundingBox<dim> node_box;
   std::vector<double>      node_values;
+  Tiles<dim>               node_tiles; // empty if dense
 };
 
 template <int dim>
@@ -120,6 +146,13 @@ inline std::size_t
 Lattice<dim>::offset(const Index &index) const
 {
   Assert(contains(index), dealii::ExcMessage("The node is outside the lattice."));
+  if (is_tiled())
+    {
+      Index node = index;
+      for (unsigned int d = 0; d < dim; ++d)
+        node[d] -= lower_node[d];
+      return node_tiles.position(node);
+    }
   std::size_t result = index[dim - 1] - lower_node[dim - 1];
   for (int d = dim - 2; d >= 0; --d)
     result = result * node_count[d] + (index[d] - lower_node[d]);
@@ -127,16 +160,31 @@ Lattice<dim>::offset(const Index &index) const
 }
 
 template <int dim>
+inline bool
+Lattice<dim>::is_tiled() const
+{
+  return !node_tiles.empty();
+}
+
+template <int dim>
 inline double &
 Lattice<dim>::operator()(const Index &index)
 {
-  return node_values[offset(index)];
+  const std::size_t position = offset(index);
+  Assert(position < node_values.size(), dealii::ExcMessage("The node is not stored."));
+  return node_values[position];
 }
 
 template <int dim>
 inline double
 Lattice<dim>::operator()(const Index &index) const
 {
-  return node_values[offset(index)];
+  const std::size_t position = offset(index);
+  if (position < node_values.size())
+    return node_values[position];
+  Index node = index;
+  for (unsigned int d = 0; d < dim; ++d)
+    node[d] -= lower_node[d];
+  return node_tiles.coarse_value(node);
 }
 } // namespace scree

@@ -88,7 +88,7 @@ public:
   /** The |r| that round-off in A u leaves at the last residual(). */
   double round_off() const;
 
-  /** Rigid motions of each deformable body, for the near null space. */
+  /** The rigid motions for the near null space, see near_null_space(). */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */

@@ -114,7 +114,10 @@ private:
   double             size;
 };
 
-/** The rigid motions of each deformable body as vectors of unknowns. */
+/**
+ * The rigid motions as vectors of unknowns, the same for all deformable bodies: a set per body
+ * saves a tenth of the iterations of a multigrid and doubles the time of each.
+ */
 template <int dim>
 std::vector<dealii::TrilinosWrappers::MPI::Vector>
 near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);

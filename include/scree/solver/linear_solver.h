@@ -14,6 +14,8 @@
 
 namespace scree
 {
+class Multigrid;
+
 /** A linear system that could not be solved: singular, not finite, or no convergence. */
 class LinearSolverFailure : public std::runtime_error
 {
@@ -110,6 +112,9 @@ struct LinearSolveResult
  * for symmetric and GMRES for other matrices; if that does not converge, the direct one. Among the
  * direct ones KLU takes small matrices on one process, MUMPS all others.
  *
+ * The multigrid hierarchy is kept, with a copy of its matrix, as long as the iterations per digit
+ * stay below 1.5 times those right after it was built.
+ *
  * A direct solver keeps a copy of the matrix and its symbolic factorisation; the latter is used
  * again as long as the matrices come with the same graph object, that is, until the matrix is
  * initialised with a new sparsity pattern.
@@ -161,10 +166,13 @@ public:
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
    * @param symmetric whether A is symmetric positive definite, so that CG may be used
+   * @param tolerance what an iterative solver is asked for, |b - A x| <= tolerance |b|, if that is
+   *                  looser than its parameter
    * @throws LinearSolverFailure (on all processes) if A is singular to working precision, the
    *         solution is not finite, or the iteration does not converge
    */
-  LinearSolveResult solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric);
+  LinearSolveResult solve(const Matrix &A, Vector &x, const Vector &b, const bool symmetric,
+                          const double tolerance = 0.);
 
 private:
   class Factorisation;
@@ -175,7 +183,7 @@ private:
                                    const bool symmetric);
 
   LinearSolveResult solve_iteratively(const Matrix &A, Vector &x, const Vector &b,
-                                      const bool symmetric) const;
+                                      const bool symmetric, const double tolerance);
 
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
@@ -183,5 +191,6 @@ private:
   unsigned int                   n_border = 0;
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
+  std::unique_ptr<Multigrid>     multigrid;
 };
 } // namespace scree

@@ -31,6 +31,10 @@ struct NewtonParameters
 
   LineSearch line_search = LineSearch::residual;
 
+  /** The loosest relative tolerance of a linear system, 0 <= . < 1; 0: always as tight as can be.
+   */
+  double loosest_linear_tolerance = 1e-3;
+
   /** Reads the entries of the section and records what is not allowed. */
   void declare(const ParameterSection &section);
 };
@@ -108,6 +112,10 @@ struct NewtonResult
  * falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most (Matthies, Strang, Int. J. Numer.
  * Meth. Engng 14, 1979, 1613-1626). In all cases a step to a residual that is not finite is halved.
  *
+ * *Linear tolerances:* `eta = 0.9 (|r| / |r_before|)^2`, in the first iteration the loosest one
+ * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the
+ * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
+ *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
  * the caller goes back to its saved state.
@@ -124,10 +132,11 @@ public:
     std::function<void(const Vector &u, Vector &r)> residual;
 
     /**
-     * Solves K(u) du = r; zero on constrained rows. Called for the u and r of the last call of
-     * `residual`. May throw LinearSolverFailure (on all processes).
+     * Solves K(u) du = r to |r - K du| <= tolerance |r|, or better; zero on constrained rows.
+     * Called for the u and r of the last call of `residual`. May throw LinearSolverFailure (on all
+     * processes).
      */
-    std::function<void(const Vector &u, const Vector &r, Vector &du)> solve;
+    std::function<void(const Vector &u, const Vector &r, double tolerance, Vector &du)> solve;
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
     std::function<double()> reference;

@@ -1,0 +1,162 @@
+"""Pictures of bodies in 3D: their surface and plane sections, drawn pixel by pixel with the nearest triangle in front."""
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+from .results import BodyMesh
+from .style import figure_for
+
+PIXELS = 1000  # along the longer side of the picture
+# A cube in six tetrahedra around the diagonal of the vertices 0 and 6 of VTK's order.
+SIX_TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
+
+
+class View:
+    """Directions of the picture in space: to the right, up, and towards the eye."""
+
+    def __init__(self, azimuth=-60.0, elevation=25.0):
+        azimuth, elevation = np.radians(azimuth), np.radians(elevation)
+        self.right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+        self.towards = np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation),
+                                 np.sin(elevation)])
+        self.up = np.cross(self.towards, self.right)
+
+    def project(self, points):
+        """Coordinates in the picture (n, 2) and nearness (n)."""
+        return np.stack([points @ self.right, points @ self.up], axis=1), points @ self.towards
+
+
+class Raster:
+    """For every pixel the nearest triangle (-1: none) and the barycentric weights of its corners there."""
+
+    def __init__(self, plane, nearness, triangles):
+        self.low, high = plane.min(axis=0), plane.max(axis=0)
+        self.pixel = (high - self.low).max() / PIXELS
+        self.low, high = self.low - 2.0 * self.pixel, high + 2.0 * self.pixel  # room for the outline
+        width, height = (np.ceil((high - self.low) / self.pixel).astype(int) + 1).tolist()
+        self.extent = (self.low[0], self.low[0] + width * self.pixel, self.low[1], self.low[1] + height * self.pixel)
+        self.triangle = np.full((height, width), -1)
+        self.weights = np.zeros((height, width, 3))
+        self.nearness = np.full((height, width), -np.inf)
+        corners = (plane[triangles] - self.low) / self.pixel - 0.5
+        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+        doubled_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        first = np.ceil(corners.min(axis=1)).astype(int).clip(0)
+        last = np.floor(corners.max(axis=1)).astype(int).clip(max=[width - 1, height - 1])
+        seen = np.flatnonzero((last >= first).all(axis=1) & (np.abs(doubled_area) > 1e-9))
+        for number in seen:
+            self.paint(number, first[number], last[number], corners[number], doubled_area[number],
+                       nearness[triangles[number]])
+
+    def paint(self, number, first, last, corners, doubled_area, nearness):
+        x, y = np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1)[:, None]
+        (ax, ay), (bx, by), (cx, cy) = corners
+        weight_b = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / doubled_area
+        weight_c = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / doubled_area
+        weight_a = 1.0 - weight_b - weight_c
+        depth = weight_a * nearness[0] + weight_b * nearness[1] + weight_c * nearness[2]
+        window = np.s_[first[1]:last[1] + 1, first[0]:last[0] + 1]
+        front = ((weight_a >= -1e-9) & (weight_b >= -1e-9) & (weight_c >= -1e-9) & (depth > self.nearness[window]))
+        self.nearness[window][front] = depth[front]
+        self.triangle[window][front] = number
+        self.weights[window][front] = np.stack([weight_a, weight_b, weight_c], axis=2)[front]
+
+    def values(self, of_corners):
+        """An image of values (n triangles, 3) given at the corners; nan where there is nothing."""
+        image = np.einsum("ijk,ijk->ij", self.weights, of_corners[self.triangle])
+        return np.where(self.triangle >= 0, image, np.nan)
+
+    def outlines(self, body):
+        """Whether a pixel lies where one body ends: beside nothing, another body (n triangles), or a step in depth."""
+        shown = np.where(self.triangle >= 0, body[self.triangle], -1)
+        finite = np.where(self.triangle >= 0, self.nearness, 0.0)
+        result = np.zeros(shown.shape, dtype=bool)
+        for axis in (0, 1):
+            before, after = (np.take(shown, range(*r), axis) for r in ((0, shown.shape[axis] - 1), (1, shown.shape[axis])))
+            step = np.abs(np.diff(finite, axis=axis)) > 20.0 * self.pixel
+            edge = (before != after) | (step & (before >= 0) & (after >= 0))
+            result |= np.pad(edge, [(0, 1) if a == axis else (0, 0) for a in (0, 1)])
+        return result
+
+    def draw(self, axes, colours, outlines):
+        """Colours (height, width, 4) with black outlines."""
+        colours[outlines] = (0.0, 0.0, 0.0, 1.0)
+        axes.imshow(colours, extent=self.extent, origin="lower", interpolation="antialiased", zorder=1)
+
+
+def surface_triangles(mesh):
+    """Triangles (n, 3) of the faces that occur an odd number of times. Where cells of different size meet inside a
+    body their faces remain; they are hidden behind the surface."""
+    tetrahedra, hexahedra = mesh.cells_of(BodyMesh.tetrahedron), mesh.cells_of(BodyMesh.hexahedron)
+    faces = [tetrahedra[:, list(f) + [f[2]]] for f in ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))]
+    faces += [hexahedra[:, list(f)] for f in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5),
+                                              (2, 3, 7, 6), (3, 0, 4, 7))]
+    faces = np.concatenate(faces)
+    grid = np.rint(mesh.points / (4e-7 * mesh.size)).astype(np.int64)
+    _, number = np.unique(np.column_stack([grid, mesh.body]), axis=0, return_inverse=True)
+    number = np.sort(number[faces], axis=1)
+    solid = (np.diff(number, axis=1) > 0).sum(axis=1) >= 2
+    faces, number = faces[solid], number[solid]
+    _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
+    faces = faces[first[count % 2 == 1]]
+    quadrilateral = faces[:, 2] != faces[:, 3]
+    return np.concatenate([faces[:, :3], faces[quadrilateral][:, [0, 2, 3]]])
+
+
+def section_triangles(mesh, axis, position):
+    """The section of all bodies with the plane x_axis = position: triangles as pairs of points and the share of the
+    second (n, 3), by tetrahedra that are cut into a triangle or two."""
+    hexahedra = mesh.cells_of(BodyMesh.hexahedron)
+    tetrahedra = np.concatenate([mesh.cells_of(BodyMesh.tetrahedron)] + [hexahedra[:, list(t)] for t in SIX_TETRAHEDRA])
+    # A plane through nodes would meet tetrahedra in corners and edges only.
+    side = mesh.points[:, axis] - position - 1e-9 * mesh.size
+    tetrahedra = tetrahedra[(side[tetrahedra].min(axis=1) < 0.0) & (side[tetrahedra].max(axis=1) >= 0.0)]
+    tetrahedra = np.take_along_axis(tetrahedra, np.argsort(side[tetrahedra], axis=1), axis=1)
+    n_below = (side[tetrahedra] < 0.0).sum(axis=1)
+    edges = {1: [((0, 1), (0, 2), (0, 3))], 3: [((0, 3), (1, 3), (2, 3))],
+             2: [((0, 2), (0, 3), (1, 3)), ((0, 2), (1, 3), (1, 2))]}
+    pairs = np.concatenate([tetrahedra[n_below == n][:, triangle].reshape(-1, 3, 2)
+                            for n, triangles in edges.items() for triangle in triangles])
+    share = side[pairs[:, :, 0]] / (side[pairs[:, :, 0]] - side[pairs[:, :, 1]])
+    return pairs, share
+
+
+def draw_surface(mesh, deformed, values, scale, cmap="viridis"):
+    """The surface, seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
+    view = View()
+    triangles = surface_triangles(mesh)
+    plane, nearness = view.project(deformed)
+    used = np.unique(triangles)
+    figure, axes = figure_for(plane[used])
+    axes.set_axis_off()
+    raster = Raster(plane, nearness, triangles)
+    a, b, c = (deformed[triangles[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True).clip(1e-300)
+    lamp = view.towards + 0.4 * view.up
+    light = 0.65 + 0.35 * np.abs(normal @ lamp / np.linalg.norm(lamp))
+    colours = ScalarMappable(Normalize(*scale), cmap)
+    image = colours.to_rgba(raster.values(values[triangles]))
+    image[:, :, :3] *= light[raster.triangle][:, :, None]
+    image[raster.triangle < 0] = 0.0
+    raster.draw(axes, image, raster.outlines(mesh.body[triangles[:, 0]]))
+    return figure, axes, colours
+
+
+def draw_section(mesh, deformed, values, section, scale, cmap="viridis"):
+    """The section with the plane (axis, position) of the undeformed bodies. Figure, axes, and the colours."""
+    pairs, share = section_triangles(mesh, *section)
+    kept = [axis for axis in range(3) if axis != section[0]]
+    at = [deformed[:, kept], values]
+    plane, field = ((1.0 - share)[..., None] * a.reshape(len(a), -1)[pairs[:, :, 0]]
+                    + share[..., None] * a.reshape(len(a), -1)[pairs[:, :, 1]] for a in at)
+    plane = plane.reshape(-1, 2)
+    figure, axes = figure_for(plane)
+    axes.set_xlabel("xyz"[kept[0]])
+    axes.set_ylabel("xyz"[kept[1]])
+    raster = Raster(plane, np.zeros(len(plane)), np.arange(len(plane)).reshape(-1, 3))
+    colours = ScalarMappable(Normalize(*scale), cmap)
+    image = colours.to_rgba(raster.values(field[..., 0]))
+    image[raster.triangle < 0] = 0.0
+    raster.draw(axes, image, raster.outlines(mesh.body[pairs[:, 0, 0]]))
+    return figure, axes, colours

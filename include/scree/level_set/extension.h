@@ -1,0 +1,45 @@
+#pragma once
+
+#include <scree/level_set/lattice.h>
+
+namespace scree
+{
+/** How nodal values are continued off a body. */
+enum class Extrapolation
+{
+  constant, // grad v . grad phi = 0
+  linear    // values and gradients carried along
+};
+
+/** What an extension did. */
+struct ExtensionCount
+{
+  std::size_t n_extended; // nodes that got values
+  std::size_t n_upstream; // those of them that no node nearer to the contour leads to
+};
+
+/**
+ * Continues nodal values from the `known` nodes (what is not zero is known) to all others, all
+ * components in one pass over the nodes in the order of |phi|, which should be a distance.
+ *
+ * Constant: `sum_i g_i D_i v = 0` with the central differences g_i of |phi| and the one-sided
+ * differences D_i towards smaller |phi|: second order where two nodes there have values, else first
+ * order.
+ *
+ * Linear: the gradient G of v is continued as a constant and `sum_i g_i D_i (v - G x) = 0`, so that
+ * affine fields are continued exactly whatever phi is. At known nodes G is the central difference
+ * along an axis, at the end of what is known the one-sided one of second order (of first order
+ * where only two nodes are known), or that of its neighbours across where it sticks out.
+ *
+ * Nodes without such neighbours (local minima of |phi|) take the mean of the neighbours with
+ * values, after all others. Throws ExcMessage if no node is known.
+ *
+ * @tparam n_components of v, e.g. dim
+ * @param v  in: values at the known nodes; out: at all nodes; one array per component, in the order
+ *           of the values of the lattice
+ */
+template <int dim, std::size_t n_components>
+ExtensionCount extend(const Lattice<dim> &phi, const std::vector<char> &known,
+                      Extrapolation                                  extrapolation,
+                      std::array<std::vector<double>, n_components> &v);
+} // namespace scree

@@ -1,0 +1,102 @@
+#include <scree/level_set/closest_point.h>
+#include <scree/level_set/reboxing.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+using namespace dealii;
+
+template <int dim>
+NodeBox<dim>
+node_box(const LatticeFrame<dim> &frame, const Point<dim> &lower, const Point<dim> &upper)
+{
+  NodeBox<dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      constexpr double rounding = 1e-6;
+      const double     cell     = 2 * frame.spacing;
+      const double     s_lower  = (lower[d] - frame.origin[d]) / cell,
+                   s_upper      = (upper[d] - frame.origin[d]) / cell;
+      result.lower[d]           = 2 * static_cast<int>(std::floor(s_lower + rounding));
+      result.n_nodes[d] = 2 * static_cast<int>(std::ceil(s_upper - rounding)) - result.lower[d] + 1;
+    }
+  return result;
+}
+
+template <int dim>
+NodeBox<dim>
+node_box_of_body(const Lattice<dim> &lattice, const double margin)
+{
+  Point<dim> lower = lattice.box().get_boundary_points().second,
+             upper = lattice.box().get_boundary_points().first;
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    if (lattice.values()[i] < 0)
+      {
+        const Point<dim> x = lattice.node(lattice.index(i));
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], x[d]);
+            upper[d] = std::max(upper[d], x[d]);
+          }
+      }
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      Assert(lower[d] <= upper[d], ExcMessage("The lattice has no negative node."));
+      lower[d] -= margin + lattice.spacing();
+      upper[d] += margin + lattice.spacing();
+    }
+  return node_box(lattice.frame(), lower, upper);
+}
+
+template <int dim>
+Lattice<dim>
+reboxed(const Lattice<dim> &lattice, const NodeBox<dim> &box)
+{
+  Lattice<dim> result(lattice.frame(), box.lower, box.n_nodes);
+  for (std::size_t i = 0; i < result.values().size(); ++i)
+    {
+      const auto index = result.index(i);
+      if (lattice.contains(index))
+        {
+          result.values()[i] = lattice(index);
+          continue;
+        }
+      const Point<dim>        x       = result.node(index);
+      const double            beyond  = lattice.nodal_value(x);
+      const ClosestPoint<dim> closest = closest_point(lattice, x, 3);
+      result.values()[i]
+        = closest.converged && beyond > 0 ? std::min(beyond, closest.point.distance(x)) : beyond;
+    }
+  return result;
+}
+
+template <int dim>
+bool
+follow_body(Lattice<dim> &lattice, const double margin)
+{
+  const NodeBox<dim> narrow = node_box_of_body(lattice, margin),
+                     wide   = node_box_of_body(lattice, 2 * margin + 4 * lattice.spacing());
+  bool fits                 = true;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const int first = lattice.lower()[d], end = first + lattice.n_nodes()[d];
+      fits &= first <= narrow.lower[d] && end >= narrow.lower[d] + narrow.n_nodes[d];
+      fits &= first >= wide.lower[d] && end <= wide.lower[d] + wide.n_nodes[d];
+    }
+  if (!fits)
+    lattice = reboxed(lattice, node_box_of_body(lattice, 1.5 * margin));
+  return !fits;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                  \
+  template NodeBox<dim> node_box(const LatticeFrame<dim> &, const Point<dim> &, \
+                                 const Point<dim> &);                           \
+  template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double);         \
+  template Lattice<dim> reboxed(const Lattice<dim> &, const NodeBox<dim> &);    \
+  template bool         follow_body(Lattice<dim> &, double);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
+} // namespace scree
