@@ -186,9 +186,11 @@ Simulation<dim>::first_guess(const double time)
                   [](const Body<dim> &body) { return body.is_rigid(); }))
     try
       {
-        guesses.push_back(
-          linear_prediction<dim>(*equilibrium, state.contact, state.displacement, unchanged,
-                                 [&](const Vector &b, Vector &x) { solve_linear_system(b, x); }));
+        guesses.push_back(linear_prediction<dim>(*equilibrium, state.contact, state.displacement,
+                                                 unchanged, [&](const Vector &b, Vector &x) {
+                                                   solve_linear_system(
+                                                     b, parameters.linear_solver.tolerance, x);
+                                                 }));
       }
     catch (const LinearSolverFailure &)
       {

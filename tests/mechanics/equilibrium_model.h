@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/linear_prediction.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
@@ -92,6 +93,10 @@ struct EquilibriumModel
     };
     Vector u = state.displacement;
     equilibrium.set_time(time, u);
+    if (state.time > 0. && cut.fields->n_trailing() > 0)
+      u = linear_prediction<dim>(
+        equilibrium, state.contact, state.displacement, u,
+        [&](const Vector &b, Vector &x) { hooks.solve(b, b, input.linear.tolerance, x); });
     const NewtonResult result = Newton(input.newton, hooks).solve(u);
     if (result.converged())
       {

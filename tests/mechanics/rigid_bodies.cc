@@ -43,9 +43,11 @@ random_state(const EquilibriumModel<dim> &model, const double size, const double
   for (unsigned int b = 0; b < model.cut.bodies.size(); ++b)
     if (model.cut.bodies[b].is_rigid())
       for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          u(fields.rigid_unknown(b) + m)
-            += angle * model.cut.bodies[b].rigid->radius / (m - dim + 1.);
+        {
+          const DofIndex index = fields.rigid_unknown(b) + m;
+          if (fields.owned().is_element(index))
+            u(index) = u(index) + angle * model.cut.bodies[b].rigid->radius / (m - dim + 1.);
+        }
   u.compress(VectorOperation::insert);
   model.equilibrium.set_prescribed(u);
   for (const auto &line : fields.hanging_constraints().get_lines())
@@ -71,6 +73,15 @@ compare_tangent(const std::string &text, const double size, const double angle, 
       const Vector v = random_state(model, 1., 1., seed);
       equilibrium.residual(u, history, r);
       equilibrium.tangent().vmult(product, v);
+      // The artificial mass is no derivative.
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        {
+          const DofIndex index = model.cut.fields->rigid_unknown(1) + m;
+          if (model.cut.fields->owned().is_element(index))
+            product(index)
+              = product(index) - 1e-6 * equilibrium.rigid_bodies().stiffness_scale(1) * v(index);
+        }
+      product.compress(VectorOperation::insert);
       Vector moved(u);
       moved.add(step, v);
       equilibrium.residual(moved, history, plus);
@@ -139,10 +150,19 @@ TEST(RigidTangentMPI, EqualsFiniteDifferences)
   compare_tangent<2>(block_and_rigid_disc("set Law = tied"), 0.02, 0.5, 1e-6);
 }
 
+/** Section Solver for bodies that a force drives into contact. */
+std::string
+work_text(const double relative_tolerance, const std::string &linear_type = "direct")
+{
+  std::string       text = solver_text(relative_tolerance, linear_type);
+  const std::string key  = " subsection Newton\n";
+  return text.insert(text.find(key) + key.size(), "  set Line search = work\n");
+}
+
 /** A rigid cylinder (radius 10) on an elastic block; lengths, moduli and forces times a factor. */
 std::string
 cylinder_on_block(const std::string &motion, const std::string &law, const double length = 1.,
-                  const std::string &more = solver_text(1e-11))
+                  const std::string &more = work_text(1e-11))
 {
   const auto number = [&](const double x) {
     std::ostringstream text;
@@ -172,38 +192,58 @@ text_of(const double value)
   return text.str();
 }
 
+/** A formula with the values `first` at t = 1/2 and `second` at t = 1, linear in between. */
+std::string
+ramp(const double first, const double second)
+{
+  return text_of(first) + "*min(1, 2*t) + (" + text_of(second - first) + ")*max(0, 2*t - 1)";
+}
+
 /**
- * Prescribes a motion of the cylinder, applies reactions instead, and compares. Either the moment
- * or the force in x: with both given the cylinder could roll anywhere.
+ * Presses the cylinder by a motion, then moves and turns it; applies reactions instead, and
+ * compares. Either the moment or the force in x: with both given the cylinder could roll anywhere.
  */
 void
 compare_controls(const std::string &law, const bool turns)
 {
-  EquilibriumModel<2> by_motion(cylinder_on_block(
-    "set Displacement x = 0.01*t\nset Displacement y = -0.04*t\nset Rotation = -0.0004*t", law));
-  const auto          of_motion = by_motion.step(1.);
-  ASSERT_TRUE(of_motion.converged()) << of_motion.message;
-  const auto prescribed = rigid_state(by_motion);
-  EXPECT_NEAR(prescribed.displacement[1], -0.04, 1e-15);
-  EXPECT_LT(prescribed.force[1], -1.);
+  const std::string x        = "set Displacement x = " + ramp(0., 0.01) + "\n",
+                    rotation = "set Rotation = " + ramp(0., -0.0004) + "\n";
+  EquilibriumModel<2> by_motion(
+    cylinder_on_block(x + rotation + "set Displacement y = " + ramp(-0.03, -0.04), law));
+  std::vector<RigidBodyState<2>> prescribed;
+  unsigned int                   of_motion = 0, of_force = 0;
+  for (const double time : {0.5, 1.})
+    {
+      const auto result = by_motion.step(time);
+      ASSERT_TRUE(result.converged()) << result.message;
+      of_motion += result.iterations;
+      prescribed.push_back(rigid_state(by_motion));
+    }
+  const auto &first = prescribed[0], &second = prescribed[1];
+  EXPECT_NEAR(second.displacement[1], -0.04, 1e-15);
+  EXPECT_LT(second.force[1], -1.);
 
   EquilibriumModel<2> by_force(cylinder_on_block(
-    "set Force y = t*" + text_of(prescribed.force[1])
-      + (turns
-           ? "\nset Displacement x = 0.01*t\nset Moment = t*" + text_of(prescribed.moment[2])
-           : "\nset Force x = t*" + text_of(prescribed.force[0]) + "\nset Rotation = -0.0004*t"),
+    "set Force y = " + ramp(first.force[1], second.force[1]) + "\n"
+      + (turns ? x + "set Moment = " + ramp(first.moment[2], second.moment[2])
+               : rotation + "set Force x = " + ramp(first.force[0], second.force[0])),
     law));
-  const auto          of_force = by_force.step(1.);
-  ASSERT_TRUE(of_force.converged()) << of_force.message;
-  const auto found = rigid_state(by_force);
-  std::cout << "  iterations " << of_motion.iterations << " by motion, " << of_force.iterations
-            << " by force; F = " << prescribed.force << ", M = " << prescribed.moment[2]
-            << "; differences " << (found.displacement - prescribed.displacement).norm() / 0.04
-            << ", " << (found.rotation - prescribed.rotation).norm() / 0.0004 << ", force "
-            << (found.force - prescribed.force).norm() / prescribed.force.norm() << "\n";
-  EXPECT_LE((found.displacement - prescribed.displacement).norm(), 1e-8 * 0.04);
-  EXPECT_LE((found.rotation - prescribed.rotation).norm(), 1e-8 * 0.0004);
-  EXPECT_LE((found.force - prescribed.force).norm(), 1e-9 * prescribed.force.norm());
+  for (const double time : {0.5, 1.})
+    {
+      const auto result = by_force.step(time);
+      ASSERT_TRUE(result.converged()) << result.message;
+      of_force += result.iterations;
+    }
+  const auto   found = rigid_state(by_force);
+  const double shift = (found.displacement - second.displacement).norm() / 0.04,
+               turn  = (found.rotation - second.rotation).norm() / 0.0004,
+               force = (found.force - second.force).norm() / second.force.norm();
+  std::cout << "  iterations " << of_motion << " by motion, " << of_force
+            << " by force; F = " << second.force << ", M = " << second.moment[2] << "; differences "
+            << shift << ", " << turn << ", force " << force << "\n";
+  EXPECT_LE(shift, 1e-8);
+  EXPECT_LE(turn, 1e-8);
+  EXPECT_LE(force, 1e-9);
 }
 
 TEST(ForceControl, ReproducesDisplacementControl)
@@ -228,13 +268,18 @@ TEST(ForceControl, IterationsDoNotDependOnUnits)
       for (const double length : {1., 1e-3})
         {
           const std::string   factor = text_of(length);
-          EquilibriumModel<2> model(cylinder_on_block("set Displacement x = 0.01*t*" + factor
-                                                        + "\nset Force y = -10*t*" + factor
-                                                        + "\nset Moment = 0",
-                                                      friction, length, solver_text(1e-10, type)));
-          const auto          result = model.step(1.);
-          ASSERT_TRUE(result.converged()) << result.message;
-          iterations.push_back({{result.iterations, model.linear_iterations}});
+          EquilibriumModel<2> model(cylinder_on_block(
+            "set Displacement x = " + factor + "*(" + ramp(0., 0.01) + ")\nset Force y = " + factor
+              + "*(" + ramp(-20., -20.) + ")\nset Moment = 0",
+            friction, length, work_text(1e-10, type)));
+          iterations.push_back({{0, 0}});
+          for (const double time : {0.5, 1.})
+            {
+              const auto result = model.step(time);
+              ASSERT_TRUE(result.converged()) << result.message;
+              iterations.back()[0] += result.iterations;
+              iterations.back()[1] = model.linear_iterations;
+            }
           angles.push_back(rigid_state(model).rotation[2]);
         }
       std::cout << "  " << type << ": iterations " << iterations[0][0] << ", " << iterations[1][0]
@@ -254,7 +299,7 @@ ball_on_block(const std::string &motion, const std::string &law, const std::stri
          + bodies_text({{"block", half_space_text("0, 0, 0", "0, 0, 1")
                                     + conditions_text({{"base", "set On = z-"}})},
                         {"ball", ball_text("0, 0, 4", 4.) + motion_text(motion)}})
-         + contact_text(law) + solver_text(1e-10, type);
+         + contact_text(law) + work_text(1e-10, type);
 }
 
 TEST(ForceControl, BallIn3D)
@@ -280,7 +325,7 @@ TEST(ForceControl, BallIn3D)
                 << "; difference " << (found.displacement - prescribed.displacement).norm() / 0.05
                 << "\n";
       EXPECT_LE((found.displacement - prescribed.displacement).norm(), 1e-8 * 0.05);
-      EXPECT_LE(by_force.linear_iterations, by_motion.linear_iterations + 5);
+      EXPECT_LE(by_force.linear_iterations, 1.5 * by_motion.linear_iterations);
     }
 }
 
