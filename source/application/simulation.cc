@@ -292,10 +292,12 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double
         const Timings::Scope scope(timings, "linear solver");
         if (!condensed_solver)
           {
-            const auto system = equilibrium->condensation();
+            const auto system = equilibrium->condensation(false);
             condensed_solver
               = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
           }
+        else if (condensed_solver->is_worth_updating())
+          condensed_solver->update(equilibrium->condensation(true).glued);
         return condensed_solver->solve(equilibrium->tangent_changes(), dim, du, r);
       }
     catch (const LinearSolverFailure &)

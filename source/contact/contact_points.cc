@@ -423,12 +423,19 @@ ContactPoints<dim>::glued_tangent(const unsigned int point) const
 
 template <int dim>
 void
+ContactPoints<dim>::choose_glued(const bool only_closed)
+{
+  glued_tangents.assign(contact_points.size(), dealii::Tensor<2, dim>());
+  for (unsigned int p = 0; p < contact_points.size(); ++p)
+    if (!only_closed || contact_responses[p].status != ContactStatus::open)
+      glued_tangents[p] = glued_tangent(p);
+}
+
+template <int dim>
+void
 ContactPoints<dim>::add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
 {
-  std::vector<dealii::Tensor<2, dim>> stiffness;
-  for (unsigned int p = 0; p < contact_points.size(); ++p)
-    stiffness.push_back(glued_tangent(p));
-  add_to_matrix(stiffness, matrix);
+  add_to_matrix(glued_tangents, matrix);
 }
 
 template <int dim>
@@ -440,11 +447,10 @@ ContactPoints<dim>::tangent_changes() const
   changes.reserve(contact_points.size() * dim * dim);
   for (unsigned int p = 0; p < contact_points.size(); ++p)
     {
-      const dealii::Tensor<2, dim> glued  = glued_tangent(p);
-      dealii::Tensor<2, dim>       change = -glued;
+      dealii::Tensor<2, dim> change = -glued_tangents[p];
       if (contact_responses[p].status != ContactStatus::open)
         change += contact_points[p].weight * contact_responses[p].tangent;
-      if (change.norm() <= negligible * glued.norm())
+      if (change.norm() <= negligible * glued_tangents[p].norm())
         change = 0.;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)

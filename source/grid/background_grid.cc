@@ -136,8 +136,43 @@ BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                        
 {
   if (parameters.wanted_levels)
     refine_by(*parameters.wanted_levels);
-  if (parameters.wanted_levels || parameters.refinement == GridRefinement::uniform)
+  else if (parameters.refinement == GridRefinement::contact)
+    refine_by_contact(bodies, pairs);
+  share(bodies);
+  list_cells();
+}
+
+template <int dim>
+void
+BackgroundGrid<dim>::share(const std::vector<Body<dim>> &bodies)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator()) == 1)
     return;
+  // deal.II gives every cell 1000, which covers a cell without body.
+  constexpr unsigned int weight_of_body = 10000, weight_of_cut = 10000;
+  const auto connection = tria.signals.cell_weight.connect([&](const auto &cell, const auto) {
+    const double half_diagonal = 0.5 * cell->diameter();
+    unsigned int weight        = 0;
+    for (const Body<dim> &body : bodies)
+      {
+        if (body.is_rigid())
+          continue;
+        const double distance = body.level_set.value(cell->center(), 1);
+        weight += (distance < half_diagonal ? weight_of_body : 0)
+                  + (std::abs(distance) < half_diagonal ? weight_of_cut : 0);
+      }
+    return weight;
+  });
+  tria.repartition();
+  connection.disconnect();
+}
+
+template <int dim>
+void
+BackgroundGrid<dim>::refine_by_contact(
+  const std::vector<Body<dim>>                             &bodies,
+  const std::vector<std::pair<unsigned int, unsigned int>> &pairs)
+{
   const double                     h = finest_size();
   std::unique_ptr<Expression<dim>> limit;
   if (!parameters.cell_size_limit.empty())
@@ -179,7 +214,6 @@ BackgroundGrid<dim>::refine(const std::vector<Body<dim>>                        
           cell->set_refine_flag();
       tria.execute_coarsening_and_refinement();
     }
-  list_cells();
 }
 
 template <int dim>
@@ -212,7 +246,6 @@ BackgroundGrid<dim>::refine_by(const WantedLevels &wanted)
           }
       tria.execute_coarsening_and_refinement();
     }
-  list_cells();
 }
 
 template <int dim>

@@ -207,9 +207,10 @@ Equilibrium<dim>::tangent()
 
 template <int dim>
 typename Equilibrium<dim>::Condensation
-Equilibrium<dim>::condensation()
+Equilibrium<dim>::condensation(const bool only_closed)
 {
   newton_matrix.copy_from(stiffness);
+  contact.choose_glued(only_closed);
   contact.add_glued_to_matrix(newton_matrix);
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);

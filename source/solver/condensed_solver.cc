@@ -22,7 +22,9 @@ constexpr double residual_limit = 1e-3;
 } // namespace
 
 CondensedSolver::CondensedSolver(const Matrix &matrix, const SparseRows &rows, const bool symmetric)
-    : communicator(matrix.get_mpi_communicator())
+    : rows(rows)
+    , symmetric(symmetric)
+    , communicator(matrix.get_mpi_communicator())
 {
   K.copy_from(matrix);
   const Epetra_CrsMatrix &k = K.trilinos_matrix();
@@ -33,31 +35,47 @@ CondensedSolver::CondensedSolver(const Matrix &matrix, const SparseRows &rows, c
                           &rows.values[rows.begin[i]], &rows.columns[rows.begin[i]]);
   B->FillComplete(k.RowMap(), row_map);
 
-  // [K B^T; B 0] with the rows of B last.
-  const int     n       = k.NumGlobalRows();
-  MatrixEntries entries = matrix_entries(k, symmetric);
-  for (std::size_t i = 0; i < rows.n_rows(); ++i)
-    for (std::size_t j = rows.begin[i]; j < rows.begin[i + 1]; ++j)
-      {
-        entries.rows.push_back(n + row_map.GID(i));
-        entries.columns.push_back(rows.columns[j]);
-        entries.values.push_back(rows.values[j]);
-        if (symmetric)
-          continue;
-        entries.rows.push_back(rows.columns[j]);
-        entries.columns.push_back(n + row_map.GID(i));
-        entries.values.push_back(rows.values[j]);
-      }
+  const int        n = k.NumGlobalRows();
   std::vector<int> kept(row_map.NumGlobalElements());
   for (std::size_t i = 0; i < kept.size(); ++i)
     kept[i] = n + i;
-  mumps = std::make_unique<Mumps>(n + kept.size(), symmetric, entries, kept, communicator);
-  mumps->factorise(entries.values);
+  const MatrixEntries all = entries();
+  mumps = std::make_unique<Mumps>(n + kept.size(), symmetric, all, kept, communicator);
+  mumps->factorise(all.values);
+}
+
+MatrixEntries
+CondensedSolver::entries() const
+{
+  // [K B^T; B 0] with the rows of B last.
+  MatrixEntries result = matrix_entries(K.trilinos_matrix(), symmetric);
+  const int     n      = K.m();
+  for (std::size_t i = 0; i < rows.n_rows(); ++i)
+    for (std::size_t j = rows.begin[i]; j < rows.begin[i + 1]; ++j)
+      {
+        result.rows.push_back(n + B->RowMap().GID(i));
+        result.columns.push_back(rows.columns[j]);
+        result.values.push_back(rows.values[j]);
+        if (symmetric)
+          continue;
+        result.rows.push_back(rows.columns[j]);
+        result.columns.push_back(n + B->RowMap().GID(i));
+        result.values.push_back(rows.values[j]);
+      }
+  return result;
+}
+
+void
+CondensedSolver::update(const Matrix &matrix)
+{
+  K.copy_from(matrix);
+  mumps->factorise(entries().values);
+  dense_operations = 0.;
 }
 
 std::vector<double>
 CondensedSolver::solve_dense(const std::vector<double> &E, const unsigned int block,
-                             const std::vector<double> &y) const
+                             const std::vector<double> &y)
 {
   const std::vector<double> &minus_C = mumps->schur_complement();
   const std::size_t          n       = y.size();
@@ -67,7 +85,8 @@ CondensedSolver::solve_dense(const std::vector<double> &E, const unsigned int bl
                     [](const double e) { return e != 0.; }))
       changed.push_back(p);
 
-  const unsigned int               m = changed.size() * block;
+  const unsigned int m = changed.size() * block;
+  dense_operations += 2. / 3. * std::pow(m, 3);
   dealii::LAPACKFullMatrix<double> system(m, m);
   dealii::Vector<double>           z(m);
   for (unsigned int q = 0; q < changed.size(); ++q)
@@ -104,7 +123,7 @@ CondensedSolver::solve_dense(const std::vector<double> &E, const unsigned int bl
 
 void
 CondensedSolver::add_solution(const std::vector<double> &E, const unsigned int block,
-                              const Vector &r, Vector &x) const
+                              const Vector &r, Vector &x)
 {
   const bool          is_root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   std::vector<double> right   = gather_to_root(*r.trilinos_vector()(0));
@@ -150,7 +169,7 @@ CondensedSolver::residual(const std::vector<double> &E, const unsigned int block
 
 LinearSolveResult
 CondensedSolver::solve(const std::vector<double> &E, const unsigned int block, Vector &x,
-                       const Vector &b) const
+                       const Vector &b)
 {
   dealii::Timer     timer;
   LinearSolveResult result;
@@ -170,6 +189,7 @@ CondensedSolver::solve(const std::vector<double> &E, const unsigned int block, V
       residual(E, block, x, b, r);
       result.relative_residual = r.l2_norm() / norm;
     }
+  dense_operations = dealii::Utilities::MPI::broadcast(communicator, dense_operations);
   if (!(result.relative_residual <= residual_limit))
     throw LinearSolverFailure("the condensed matrix is singular to working precision");
   result.seconds = timer.wall_time();

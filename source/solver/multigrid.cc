@@ -25,7 +25,7 @@ Multigrid::Multigrid(const Matrix &A, const Settings &settings, const std::vecto
 {
   for (const Vector &mode : modes)
     AssertThrow(
-      mode.size() == A.m() && mode.local_size() == A.local_size(),
+      mode.size() == A.m() && mode.locally_owned_size() == A.local_size(),
       dealii::ExcMessage("The near null space is not distributed as the rows of the matrix."));
   if (settings.n_border == 0)
     {

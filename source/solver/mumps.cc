@@ -201,6 +201,12 @@ Mumps::factorise(const std::vector<double> &values)
         schur[j * kept_rows.size() + i] = schur[i * kept_rows.size() + j];
 }
 
+double
+Mumps::operations() const
+{
+  return instance->id.rinfog[2];
+}
+
 void
 Mumps::solve(std::vector<double> &right) const
 {

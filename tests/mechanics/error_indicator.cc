@@ -14,7 +14,7 @@ namespace
 {
 using namespace dealii;
 
-/** Strain of Manufactured::displacement(). */
+/** Strain of Manufactured<2>::displacement(). */
 SymmetricTensor<2, 2>
 exact_strain(const Point<2> &p)
 {
@@ -31,7 +31,7 @@ exact_strain(const Point<2> &p)
 std::pair<double, double>
 errors(EquilibriumModel<2> &model)
 {
-  EXPECT_LT(Manufactured::solve(model), 0.1);
+  EXPECT_LT(Manufactured<2>::solve(model), 0.1);
   const auto &fields   = *model.cut.fields;
   const auto  u        = model.equilibrium.with_ghosts(model.state.displacement);
   const auto estimated = recovery_errors(fields, model.quadrature, model.cut.bodies, model.bulk, u);
@@ -63,7 +63,7 @@ std::string
 disc_text(const unsigned int degree, const unsigned int level, const std::string &refinement = "")
 {
   return grid_text("-1, -1", "1, 1", "4, 4", level, refinement) + degree_text(degree)
-         + bodies_text({{"body", Manufactured::body(ball_text("0.0123, -0.0345", 0.8123), {})}})
+         + bodies_text({{"body", Manufactured<2>::body(ball_text("0.0123, -0.0345", 0.8123), {})}})
          + solver_text(1e-11);
 }
 

@@ -77,7 +77,7 @@ expect_solutions(const MPI_Comm communicator)
   const SparseRows rows = rows_of(square);
   for (const bool symmetric : {true, false})
     {
-      const CondensedSolver solver(square.matrix, rows, symmetric);
+      CondensedSolver solver(square.matrix, rows, symmetric);
       for (const double size : {0., 1., 100., -0.05})
         {
           const auto result = solver.solve(blocks_of(size), 2, square.x, square.b);
@@ -112,7 +112,7 @@ TEST(CondensedSolver, RecognisesSingularSystems)
   unit(centre) = 1.;
   unit.compress(VectorOperation::insert);
   LinearSolver({}, 2).solve(square.matrix, column, unit, true);
-  const CondensedSolver solver(square.matrix, rows, true);
+  CondensedSolver solver(square.matrix, rows, true);
   EXPECT_THROW(solver.solve({-1. / column(centre)}, 1, square.x, square.b), LinearSolverFailure);
   square.b(centre) = std::nan("");
   square.b.compress(VectorOperation::insert);

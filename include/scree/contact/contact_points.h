@@ -127,7 +127,13 @@ public:
   /** Rows of B: component d of [[u]] at point p is (B u)(p dim + d). */
   SparseRows jump_rows() const;
 
-  /** Adds the derivative of R_contact with all points glued, open ones too: B^T D_0 B. */
+  /**
+   * Chooses the D_0 of the next two functions: that of glued points, for all of them or for those
+   * closed in the last evaluation, zero for the others.
+   */
+  void choose_glued(const bool only_closed);
+
+  /** Adds B^T D_0 B. */
   void add_glued_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /** E = D - D_0: the derivative of R_contact is B^T (D_0 + E) B; blocks row by row. */
@@ -191,5 +197,6 @@ private:
   std::vector<double>                 stencil_weights; //!< per point, the nodes of its group
   std::vector<dealii::Tensor<1, dim>> contact_jumps;
   std::vector<ContactResponse<dim>>   contact_responses;
+  std::vector<dealii::Tensor<2, dim>> glued_tangents; //!< D_0 times the weight
 };
 } // namespace scree

@@ -87,7 +87,8 @@ public:
    * Refines: a cell at distance m from where two bodies of `pairs` may touch keeps the size
    * h + grading * max(0, m - band h), with m = max(phi_a, phi_b); the expression of position limits
    * it further. Uniform: all cells to the finest level. With wanted levels: these, whatever the
-   * bodies; more where the balance of the grid asks for it.
+   * bodies; more where the balance of the grid asks for it. Then the cells are shared among the
+   * processes by the work of the bodies in them.
    */
   void refine(const std::vector<Body<dim>>                             &bodies,
               const std::vector<std::pair<unsigned int, unsigned int>> &pairs);
@@ -153,8 +154,12 @@ public:
   }
 
 private:
-  void          list_cells();
-  void          refine_by(const WantedLevels &wanted);
+  void list_cells();
+  void refine_by(const WantedLevels &wanted);
+  void refine_by_contact(const std::vector<Body<dim>>                             &bodies,
+                         const std::vector<std::pair<unsigned int, unsigned int>> &pairs);
+  /** Divides the cells among the processes by the bodies they carry. */
+  void          share(const std::vector<Body<dim>> &bodies);
   std::uint64_t key_of(const dealii::Point<dim> &point) const;
 
   GridParameters<dim>                               parameters;

@@ -57,7 +57,7 @@ public:
   /** K at the u of the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
 
-  /** What stays the same in all tangents K = K_0 + B^T E B: K_0 with all contact points glued. */
+  /** K = K_0 + B^T E B with the contact points glued in K_0, whatever the contact does. */
   struct Condensation
   {
     const Matrix &glued;     //!< K_0, valid until the next tangent()
@@ -65,7 +65,8 @@ public:
     bool          symmetric; //!< K_0
   };
 
-  Condensation condensation();
+  /** @param only_closed glues the points that are closed at the last residual(), not all */
+  Condensation condensation(const bool only_closed);
 
   /** E at the u of the last residual(), blocks of dim x dim. */
   std::vector<double> tangent_changes() const

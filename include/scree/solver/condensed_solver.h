@@ -39,25 +39,41 @@ public:
   /** Factorises. @param symmetric K is symmetric */
   CondensedSolver(const Matrix &K, const SparseRows &B, const bool symmetric);
 
+  /** Factorises another K with the same graph. */
+  void update(const Matrix &K);
+
+  /**
+   * Whether dense systems have cost more operations since the last factorisation than it did, so
+   * that a K nearer to the present matrix pays.
+   */
+  bool is_worth_updating() const
+  {
+    return dense_operations > mumps->operations();
+  }
+
   /**
    * @param E blocks of `block` x `block` numbers, row by row, for the rows of B on this process
    * @return method "condensed" with the relative residual
    * @throws LinearSolverFailure if the matrix is singular to working precision
    */
   LinearSolveResult solve(const std::vector<double> &E, const unsigned int block, Vector &x,
-                          const Vector &b) const;
+                          const Vector &b);
 
 private:
+  MatrixEntries entries() const;
   void add_solution(const std::vector<double> &E, const unsigned int block, const Vector &r,
                     Vector &x) const;
   std::vector<double> solve_dense(const std::vector<double> &E, const unsigned int block,
-                                  const std::vector<double> &y) const;
+                                  const std::vector<double> &y);
   void residual(const std::vector<double> &E, const unsigned int block, const Vector &x,
                 const Vector &b, Vector &r) const;
 
   Matrix                            K;
+  SparseRows                        rows; //!< of B, on this process
+  bool                              symmetric;
   MPI_Comm                          communicator;
   std::unique_ptr<Epetra_CrsMatrix> B;
   std::unique_ptr<Mumps>            mumps;
+  double dense_operations = 0.; //!< since the last factorisation, on all processes
 };
 } // namespace scree

@@ -60,6 +60,9 @@ public:
    */
   void factorise(const std::vector<double> &values);
 
+  /** Floating-point operations of the last factorisation. */
+  double operations() const;
+
   /** Solves for the columns of `right` (process 0: n numbers each) in place. No kept rows. */
   void solve(std::vector<double> &right) const;
 
