@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
-#include <sstream>
 
 namespace scree
 {
@@ -77,25 +76,6 @@ clipped(const dealii::BoundingBox<dim> &shape, const dealii::BoundingBox<dim> &b
               "move the body or enlarge Grid/Lower corner, Upper corner");
     }
   return dealii::BoundingBox<dim>({lower, upper});
-}
-
-/** The level set of a body around `box`. */
-template <int dim>
-Lattice<dim>
-level_set_of(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
-             const BodyParameters<dim> &body)
-{
-  Lattice<dim> level_set = make_lattice(shape, frame, margin, body.path + "/Shape");
-  for (std::size_t i = 0; i < level_set.values().size(); ++i)
-    if (!std::isfinite(level_set.values()[i]))
-      {
-        std::ostringstream where;
-        where << level_set.node(level_set.index(i));
-        throw UserError(body.path + "/Shape",
-                        "the level set is no finite number at the point " + where.str(),
-                        "check divisions, roots and logarithms of the expression");
-      }
-  return level_set;
 }
 
 template <int dim>
@@ -167,10 +147,10 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
-      bodies.push_back(
-        Body<dim>{body.name, body.path, level_set_of(*shape, body_frame, margin, body), box,
-                  material, is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
-                  Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
+      bodies.push_back(Body<dim>{
+        body.name, body.path, make_lattice(*shape, body_frame, margin, body.path + "/Shape"), box,
+        material, is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
+        Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
     }
   return bodies;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace scree
 {
@@ -32,6 +33,20 @@ sampled(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const NodeBox<d
   for (std::size_t i = 0; i < lattice.values().size(); ++i)
     lattice.values()[i] = shape.signed_distance(lattice.node(lattice.index(i)));
   return lattice;
+}
+
+template <int dim>
+void
+check_finite(const Lattice<dim> &lattice, const std::string &where)
+{
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    if (!std::isfinite(lattice.values()[i]))
+      {
+        std::ostringstream point;
+        point << lattice.node(lattice.index(i));
+        throw UserError(where, "the level set is no finite number at the point " + point.str(),
+                        "check divisions, roots and logarithms of the expression");
+      }
 }
 
 // The part of a box that the body needs.
@@ -78,6 +93,7 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
   const NodeBox<dim> needed = trimmed(lattice, width);
   if (needed.n_nodes != lattice.n_nodes())
     lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
+  check_finite(lattice, where);
   if (!shape.is_distance() && has_contour(lattice))
     compute_distances(lattice);
   return lattice;

@@ -11,7 +11,8 @@ namespace scree
  * of the unclipped shape. Shapes that are not distances are turned into distances by fast marching
  * on the lattice. Parts of the box far from negative nodes are left out. The first and the last
  * node have even indices. Throws UserError, told as coming from the section `where`, if no node is
- * inside the shape (it is outside the frame's box, or thinner than a spacing).
+ * inside the shape (it is outside the frame's box, or thinner than a spacing) or a value is no
+ * finite number.
  */
 template <int dim>
 Lattice<dim> make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, double margin,

@@ -62,7 +62,7 @@ public:
 private:
   MatrixEntries entries() const;
   void add_solution(const std::vector<double> &E, const unsigned int block, const Vector &r,
-                    Vector &x) const;
+                    Vector &x);
   std::vector<double> solve_dense(const std::vector<double> &E, const unsigned int block,
                                   const std::vector<double> &y);
   void residual(const std::vector<double> &E, const unsigned int block, const Vector &x,
