@@ -57,8 +57,8 @@ HenckyPlasticity::Point
 HenckyPlasticity::at(const Tensor<2, 3> &F_D, const double, const IncrementStart &start) const
 {
   const LogarithmicStrain trial_strain = strain_after(F_D, start);
-  const RadialReturn      flow(moduli.stress(trial_strain.value()), start.alpha, moduli.mu, hardening);
-  Point                   point(trial_strain, flow);
+  const RadialReturn flow(moduli.stress(trial_strain.value()), start.alpha, moduli.mu, hardening);
+  Point              point(trial_strain, flow);
   point.moduli              = moduli;
   point.kirchhoff           = flow.stress;
   const Tensor<2, 3> strain = moduli.strain(flow.stress);

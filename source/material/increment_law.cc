@@ -67,7 +67,8 @@ checked_hardening(const MaterialParameters &parameters, const bool is_plastic)
   const std::string where = "Materials";
   if (!is_plastic)
     {
-      require(std::isnan(parameters.yield_stress) && std::isnan(parameters.hardening_modulus), where,
+      require(std::isnan(parameters.yield_stress) && std::isnan(parameters.hardening_modulus),
+              where,
               "the law '" + parameters.law + "' has no yield stress and no hardening modulus",
               "remove them or choose a law called J2");
       return {};
@@ -92,17 +93,17 @@ IncrementLaw<dim>::start(const PointHistory<dim> &history) const
   const Tensor<2, 3> deformation = embed<dim>(history.deformation_gradient);
   switch (this->internal())
     {
-      case InternalTensor::none:
-        result.tensor       = deformation * transpose(deformation);
-        result.volume_ratio = determinant(deformation);
-        break;
-      case InternalTensor::logarithmic_strain:
-        result.tensor       = exponential(internal);
-        result.volume_ratio = determinant(deformation);
-        break;
-      case InternalTensor::cauchy_stress:
-        result.tensor = internal;
-        break;
+    case InternalTensor::none:
+      result.tensor       = deformation * transpose(deformation);
+      result.volume_ratio = determinant(deformation);
+      break;
+    case InternalTensor::logarithmic_strain:
+      result.tensor       = exponential(internal);
+      result.volume_ratio = determinant(deformation);
+      break;
+    case InternalTensor::cauchy_stress:
+      result.tensor = internal;
+      break;
     }
   return result;
 }

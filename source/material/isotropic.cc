@@ -56,8 +56,7 @@ RadialReturn::RadialReturn(const Tensor<2, 3> &trial_stress, const double alpha,
   for (unsigned int i = 0; i < 3; ++i)
     deviator[i][i] -= pressure;
   const double norm = deviator.norm();
-  const double f
-    = norm - std::sqrt(2. / 3.) * (hardening.yield_stress + hardening.modulus * alpha);
+  const double f = norm - std::sqrt(2. / 3.) * (hardening.yield_stress + hardening.modulus * alpha);
   if (f <= 0)
     return;
   const double dgamma = f / (2 * mu + 2. / 3. * hardening.modulus);

@@ -89,8 +89,7 @@ LogarithmicStrain::LogarithmicStrain(const Eigensystem &system)
     {
       weights[a][a] = 0.5 / system.values[a];
       for (unsigned int b = 0; b < a; ++b)
-        weights[a][b] = weights[b][a]
-          = 0.5 * divided_logarithm(system.values[a], system.values[b]);
+        weights[a][b] = weights[b][a] = 0.5 * divided_logarithm(system.values[a], system.values[b]);
     }
 }
 
@@ -108,9 +107,9 @@ LogarithmicStrain::derivative(const unsigned int k, const Tensor<1, 3> &f) const
 {
   Tensor<1, 3> g; // b f in the principal axes
   for (unsigned int a = 0; a < 3; ++a)
-    g[a] = system.values[a]
-           * (system.vectors[0][a] * f[0] + system.vectors[1][a] * f[1]
-              + system.vectors[2][a] * f[2]);
+    g[a]
+      = system.values[a]
+        * (system.vectors[0][a] * f[0] + system.vectors[1][a] * f[1] + system.vectors[2][a] * f[2]);
   const Tensor<1, 3> &e = system.vectors[k];
   Tensor<2, 3>        principal;
   for (unsigned int a = 0; a < 3; ++a)

@@ -21,7 +21,8 @@ NeoHookean::at(const Tensor<2, 3> &F_D, const double J_D, const IncrementStart &
   point.kirchhoff = moduli.mu * point.b;
   for (unsigned int i = 0; i < 3; ++i)
     point.kirchhoff[i][i] += moduli.lambda * log_J - moduli.mu;
-  point.energy = moduli.mu * (0.5 * (trace(point.b) - 3) - log_J) + 0.5 * moduli.lambda * log_J * log_J;
+  point.energy
+    = moduli.mu * (0.5 * (trace(point.b) - 3) - log_J) + 0.5 * moduli.lambda * log_J * log_J;
   return point;
 }
 

@@ -70,16 +70,15 @@ SmallStrainRotated::Point::Point(const LogarithmicStrain &strain, const PolarRot
 }
 
 SmallStrainRotated::Point
-SmallStrainRotated::at(const Tensor<2, 3> &F_D, const double J_D,
-                       const IncrementStart &start) const
+SmallStrainRotated::at(const Tensor<2, 3> &F_D, const double J_D, const IncrementStart &start) const
 {
   const Eigensystem       system = eigensystem(F_D * transpose(F_D));
   const LogarithmicStrain strain(system);
   const PolarRotation     rotation(F_D, system);
-  const Tensor<2, 3> rotated = rotation.value() * start.tensor * transpose(rotation.value());
-  const RadialReturn flow(rotated + moduli.stress(strain.value()), start.alpha, moduli.mu,
-                          hardening);
-  Point              point(strain, rotation, flow);
+  const Tensor<2, 3>      rotated = rotation.value() * start.tensor * transpose(rotation.value());
+  const RadialReturn      flow(rotated + moduli.stress(strain.value()), start.alpha, moduli.mu,
+                               hardening);
+  Point                   point(strain, rotation, flow);
   point.rotated_stress = rotated;
   point.moduli         = moduli;
   point.J_D            = J_D;
@@ -92,8 +91,7 @@ Tensor<2, 3>
 SmallStrainRotated::Point::derivative(const unsigned int k, const Tensor<1, 3> &f) const
 {
   const Tensor<2, 3> turned = rotation.spin(k, f) * rotated_stress; // its transpose belongs to it
-  const Tensor<2, 3> trial
-    = turned + transpose(turned) + moduli.stress(strain.derivative(k, f));
+  const Tensor<2, 3> trial  = turned + transpose(turned) + moduli.stress(strain.derivative(k, f));
   return J_D * (flow.derivative(trial) + f[k] * flow.stress);
 }
 } // namespace scree

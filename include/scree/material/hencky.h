@@ -42,8 +42,8 @@ private:
 
 /**
  * Multiplicative J2 plasticity in logarithmic strains with linear isotropic hardening: Hencky's
- * law gives the trial stress of `b_e^tr = F_D b_e,n F_D^T`, RadialReturn the stress, and the elastic
- * strain of that stress is carried as `ln b_e`. The flow is isochoric, `det b_e = J^2`.
+ * law gives the trial stress of `b_e^tr = F_D b_e,n F_D^T`, RadialReturn the stress, and the
+ * elastic strain of that stress is carried as `ln b_e`. The flow is isochoric, `det b_e = J^2`.
  *
  *     psi = lambda/2 (tr eps_e)^2 + mu eps_e : eps_e + H/2 alpha^2
  *

@@ -20,8 +20,8 @@ template <int dim>
 struct PointHistory
 {
   /** Deformation gradient `F` against the reference configuration [-]. */
-  dealii::Tensor<2, dim> deformation_gradient =
-    dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  dealii::Tensor<2, dim> deformation_gradient
+    = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
 
   /** What IncrementLaw::internal() says; zero at the start of a run. */
   dealii::SymmetricTensor<2, 3> internal;

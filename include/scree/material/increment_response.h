@@ -46,11 +46,11 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
                  dealii::Tensor<4, dim> *tangent)
 {
   using namespace dealii;
-  using Point                    = typename Law::Point;
-  constexpr double nan           = std::numeric_limits<double>::quiet_NaN();
-  constexpr bool   is_geometric  = Point::is_geometric;
-  const Tensor<2, 3> F           = embed<dim>(increment);
-  const double       volume_step = is_geometric ? determinant(F) : 1;
+  using Point                     = typename Law::Point;
+  constexpr double   nan          = std::numeric_limits<double>::quiet_NaN();
+  constexpr bool     is_geometric = Point::is_geometric;
+  const Tensor<2, 3> F            = embed<dim>(increment);
+  const double       volume_step  = is_geometric ? determinant(F) : 1;
   if (!(volume_step > 0))
     {
       response = IncrementResponse<dim>();
@@ -67,10 +67,10 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
       response.energy = nan;
       return;
     }
-  const Tensor<2, 3> inverse = is_geometric ? invert(F) : embed<dim>(Tensor<2, dim>(
-                                                unit_symmetric_tensor<dim>()));
-  const Point        point   = law.at(F, volume_step, start);
-  const double       scale   = 1 / start.volume_ratio;
+  const Tensor<2, 3> inverse
+    = is_geometric ? invert(F) : embed<dim>(Tensor<2, dim>(unit_symmetric_tensor<dim>()));
+  const Point  point = law.at(F, volume_step, start);
+  const double scale = 1 / start.volume_ratio;
 
   const Tensor<2, 3> piola = scale * point.kirchhoff * transpose(inverse);
   for (unsigned int i = 0; i < dim; ++i)
@@ -109,11 +109,10 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
 /** IncrementLaw::respond() of the law `law`, inlined at every point. */
 template <int dim, class Law>
 void
-respond_at_points(const Law                                             &law,
-                  const dealii::ArrayView<const dealii::Tensor<2, dim>> &increments,
-                  const dealii::ArrayView<const IncrementStart>         &starts,
-                  const dealii::ArrayView<IncrementResponse<dim>>       &responses,
-                  const dealii::ArrayView<dealii::Tensor<4, dim>>       &tangents)
+respond_at_points(const Law &law, const dealii::ArrayView<const dealii::Tensor<2, dim>> &increments,
+                  const dealii::ArrayView<const IncrementStart>   &starts,
+                  const dealii::ArrayView<IncrementResponse<dim>> &responses,
+                  const dealii::ArrayView<dealii::Tensor<4, dim>> &tangents)
 {
   AssertDimension(increments.size(), starts.size());
   AssertDimension(increments.size(), responses.size());

@@ -61,7 +61,8 @@ public:
   double dissipation = 0;
 
   /**
-   * Change of the stress with that of the trial stress, with `theta = 1 - 2 mu dgamma/|dev tau^tr|`:
+   * Change of the stress with that of the trial stress, with `theta = 1 - 2 mu dgamma/|dev
+   * tau^tr|`:
    *
    *     d tau = d tau^tr - (1 - theta) dev d tau^tr - (theta - H/(3 mu + H)) n (n : d tau^tr).
    */

@@ -31,8 +31,8 @@ dealii::Tensor<2, 3> exponential(const dealii::Tensor<2, 3> &symmetric);
  *
  *     d eps_ab = 1/2 L_ab db_ab,    L_ab = (ln b_a - ln b_b)/(b_a - b_b),    L_aa = 1/b_a.
  *
- * With `x = (b_a - b_b)/b_b` it is `L_ab = log1p(x)/(x b_b)`, which does not suffer from cancellation: equal
- * eigenvalues (`x = 0`) are the only exception, nearly equal ones are none.
+ * With `x = (b_a - b_b)/b_b` it is `L_ab = log1p(x)/(x b_b)`, which does not suffer from
+ * cancellation: equal eigenvalues (`x = 0`) are the only exception, nearly equal ones are none.
  */
 class LogarithmicStrain
 {

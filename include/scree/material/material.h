@@ -28,8 +28,8 @@ struct MaterialParameters
   double density = 0;
 
   /**
-   * Yield stress sigma_y > 0 and hardening modulus H >= 0 of plastic laws [force/length^2]; NaN: not
-   * set. Not an entry of a parameter file: make_increment_law() alone uses them.
+   * Yield stress sigma_y > 0 and hardening modulus H >= 0 of plastic laws [force/length^2]; NaN:
+   * not set. Not an entry of a parameter file: make_increment_law() alone uses them.
    */
   double yield_stress      = std::numeric_limits<double>::quiet_NaN();
   double hardening_modulus = std::numeric_limits<double>::quiet_NaN();

@@ -11,8 +11,8 @@ namespace scree
  *     psi = lambda/2 (tr E)^2 + mu E : E,
  *     tau = F (lambda tr(E) I + 2 mu E) F^T = lambda tr(e) b + 2 mu e b,    e = (b - I)/2.
  *
- * It softens in compression (the force on a bar has a maximum at the stretch 1/sqrt(3)): it serves comparisons
- * with other programs, at moderate strain.
+ * It softens in compression (the force on a bar has a maximum at the stretch 1/sqrt(3)): it serves
+ * comparisons with other programs, at moderate strain.
  */
 class SaintVenantKirchhoff
 {
