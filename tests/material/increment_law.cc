@@ -296,10 +296,10 @@ TEST(IncrementLaw, ParameterFilesDoNotOfferThem)
 /** Processor time of a flat loop, in blocks as an assembly has them. */
 template <int dim>
 void
-print_time_per_point(const std::string &name, const bool with_tangent)
+print_time_per_point(const std::string &name, const unsigned int n_points, const bool with_tangent)
 {
-  const unsigned int                  n_points = 1000000, block = 64;
-  const auto                          law = make_increment_law<dim>(parameters_of(name));
+  const unsigned int                  block = 64; // divides n_points
+  const auto                          law   = make_increment_law<dim>(parameters_of(name));
   std::mt19937                        generator(3);
   std::vector<Tensor<2, dim>>         increments(n_points);
   std::vector<IncrementStart>         starts(n_points);
@@ -334,13 +334,13 @@ print_time_per_point(const std::string &name, const bool with_tangent)
 
 TEST(ReleaseIncrementLaw, TimePerPoint)
 {
-  static_assert(1000000 % 64 == 0);
   for (const std::string name :
        {"linear elastic", "neo-Hookean", "Saint Venant-Kirchhoff", "Hencky", "J2"})
     for (const bool with_tangent : {false, true})
       {
-        print_time_per_point<2>(name, with_tangent);
-        print_time_per_point<3>(name, with_tangent);
+        const unsigned int n_points = name == "J2" ? 1000000 : 64000;
+        print_time_per_point<2>(name, n_points, with_tangent);
+        print_time_per_point<3>(name, n_points, with_tangent);
       }
 }
 } // namespace
