@@ -101,6 +101,13 @@ declare_materials(const ParameterSection &root)
   return materials;
 }
 
+void
+check_elastic_constants(const MaterialParameters &parameters)
+{
+  for (const Problem &problem : problems_of(parameters))
+    throw UserError("Materials", problem.key + " " + problem.what, problem.remedy);
+}
+
 std::vector<std::string>
 material_laws()
 {
@@ -150,8 +157,7 @@ template <int dim>
 std::unique_ptr<Material<dim>>
 make_material(const MaterialParameters &parameters)
 {
-  for (const Problem &problem : problems_of(parameters))
-    throw UserError("Materials", problem.key + " " + problem.what, problem.remedy);
+  check_elastic_constants(parameters);
   for (const auto &[name, construct_law] : registered_laws<dim>())
     if (name == parameters.law)
       return construct_law(parameters);

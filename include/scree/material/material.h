@@ -27,6 +27,13 @@ struct MaterialParameters
   /** Mass per volume in the reference configuration, >= 0 [mass/length^3]. */
   double density = 0;
 
+  /**
+   * Yield stress sigma_y > 0 and hardening modulus H >= 0 of plastic laws [force/length^2]; NaN:
+   * not set. Not an entry of a parameter file: make_increment_law() alone uses them.
+   */
+  double yield_stress      = std::numeric_limits<double>::quiet_NaN();
+  double hardening_modulus = std::numeric_limits<double>::quiet_NaN();
+
   /** Whether bodies of this material do not deform. */
   bool is_rigid() const;
 
@@ -38,6 +45,9 @@ struct MaterialParameters
  * Reads the section `Materials` of `root`: `set Names = steel, rubber` and one subsection per name.
  */
 std::map<std::string, MaterialParameters> declare_materials(const ParameterSection &root);
+
+/** @throws UserError unless E, nu and the density of a deformable material are allowed. */
+void check_elastic_constants(const MaterialParameters &parameters);
 
 /** The names a material law may have, in the order of registration. */
 std::vector<std::string> material_laws();

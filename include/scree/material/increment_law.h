@@ -1,0 +1,132 @@
+#pragma once
+
+#include <scree/material/material.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/**
+ * What a material point carries from step to step. Tensors with three rows also exist in two
+ * dimensions, where the strain is plane: the out-of-plane components are part of the state.
+ */
+template <int dim>
+struct PointHistory
+{
+  /** Deformation gradient `F` against the reference configuration [-]. */
+  dealii::Tensor<2, dim> deformation_gradient
+    = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+
+  /** What IncrementLaw::internal() says; zero at the start of a run. */
+  dealii::SymmetricTensor<2, 3> internal;
+
+  /** Equivalent plastic strain `alpha >= 0` [-]. */
+  double alpha = 0;
+};
+
+/** The history of a point in the form that every Newton iteration of the step uses. */
+struct IncrementStart
+{
+  /** `b_e` of finite-strain laws [-], the Cauchy stress of small-strain laws. */
+  dealii::Tensor<2, 3> tensor;
+
+  /** `J_n`: volume at the start of the step per reference volume; 1 for small-strain laws. */
+  double volume_ratio = 1;
+
+  /** `alpha_n`, not negative. */
+  double alpha = 0;
+};
+
+/** What an increment `F_D` leads to at one point. */
+template <int dim>
+struct IncrementResponse
+{
+  /** `P = J_D sigma F_D^{-T}`: stress for `int_{Omega_n} P : grad v dV` (`sigma` if linear). */
+  dealii::Tensor<2, dim> piola;
+
+  /** Cauchy stress. */
+  dealii::SymmetricTensor<2, 3> cauchy;
+
+  /** PointHistory::internal at the end of the increment. */
+  dealii::SymmetricTensor<2, 3> internal;
+
+  /** PointHistory::alpha at the end of the increment. */
+  double alpha = 0;
+
+  /** Stored energy, elastic and by hardening, per reference volume. */
+  double energy = 0;
+
+  /** Plastic dissipation `sigma_y (alpha - alpha_n)` of the increment, per reference volume. */
+  double dissipation = 0;
+};
+
+/** Which tensor PointHistory::internal is. */
+enum class InternalTensor
+{
+  none,               // the deformation gradient says all
+  logarithmic_strain, // ln b_e
+  cauchy_stress       // sigma
+};
+
+/**
+ * A constitutive law in increments: with the deformation gradient `F_D = I + grad du` of a step
+ * on the configuration `Omega_n` at its start, and the history at that start, the stress `P` with
+ *
+ *     R(v) = int_{Omega_n} P : grad v dV,    P = J_D sigma F_D^{-T} = tau F_D^{-T} / J_n,
+ *
+ * and its exact derivative `A = dP/dF_D`. In two dimensions the strain is plane (`F_zz = 1`).
+ * Stresses, energies and moduli have the unit of Young's modulus.
+ *
+ * If `det F_D <= 0`, which a Newton iteration may try, the stress, the tangent and the energy of a
+ * law with geometric terms are NaN, so that a line search rejects the iterate.
+ */
+template <int dim>
+class IncrementLaw
+{
+public:
+  virtual ~IncrementLaw() = default;
+
+  /** What the internal tensor of a point is. */
+  virtual InternalTensor internal() const = 0;
+
+  /**
+   * The start of a step from interpolated or carried history; needed once per step and point.
+   *
+   *     internal() == none:               b_e = F F^T,              J_n = det F
+   *     internal() == logarithmic_strain: b_e = exp(ln b_e),        J_n = det F
+   *     internal() == cauchy_stress:      sigma_n,                  J_n = 1
+   *
+   * A negative alpha, which an interpolation may produce, is clipped.
+   */
+  IncrementStart start(const PointHistory<dim> &history) const;
+
+  /**
+   * Responses at all points of `increments` (`F_D`), and the tangents `A_iJkL = dP_iJ/dF_D,kL`
+   * unless `tangents` is empty. The virtual call is one per batch, not per point.
+   */
+  virtual void respond(const dealii::ArrayView<const dealii::Tensor<2, dim>> &increments,
+                       const dealii::ArrayView<const IncrementStart>         &starts,
+                       const dealii::ArrayView<IncrementResponse<dim>>       &responses,
+                       const dealii::ArrayView<dealii::Tensor<4, dim>>       &tangents) const = 0;
+};
+
+/** Names of the laws that make_increment_law() knows. */
+std::vector<std::string> increment_laws();
+
+/**
+ * The law of the name `parameters.law` with E and nu, and with the yield stress and the hardening
+ * modulus if it is plastic. Laws called "rotated" are small-strain laws that turn the old stress
+ * with the rotation of the increment.
+ *
+ * @throws UserError if there is no law of that name, or if a constant is missing, not allowed, or
+ *         given to a law that has none
+ */
+template <int dim>
+std::unique_ptr<IncrementLaw<dim>> make_increment_law(const MaterialParameters &parameters);
+} // namespace scree
