@@ -8,6 +8,20 @@ namespace scree
 {
 using namespace dealii;
 
+namespace
+{
+/** Sends messages of packed points to their processes and adds what arrives to `points`. */
+template <int dim>
+void
+exchange(const std::map<unsigned int, std::vector<double>> &messages, MaterialPoints<dim> &points,
+         const MPI_Comm comm)
+{
+  for (const auto &[rank, message] : Utilities::MPI::some_to_some(comm, messages))
+    for (std::size_t first = 0; first < message.size(); first += points.n_values())
+      points.unpack(message.data() + first);
+}
+} // namespace
+
 template <int dim>
 std::uint64_t
 send_to_owners(MaterialPoints<dim>                                   &points,
@@ -28,12 +42,27 @@ send_to_owners(MaterialPoints<dim>                                   &points,
       points.pack(i, messages[rank]);
       ++n_sent;
     }
-  const auto received = Utilities::MPI::some_to_some(comm, messages);
   points.keep(stays);
-  for (const auto &[rank, message] : received)
-    for (std::size_t first = 0; first < message.size(); first += points.n_values())
-      points.unpack(message.data() + first);
+  exchange(messages, points, comm);
   return Utilities::MPI::sum(n_sent, comm);
+}
+
+template <int dim>
+MaterialPoints<dim>
+neighbours_from_others(const MaterialPoints<dim>                                          &points,
+                       const std::function<std::vector<unsigned int>(const Point<dim> &)> &takers,
+                       const MPI_Comm                                                      comm)
+{
+  const unsigned int me = Utilities::MPI::this_mpi_process(comm);
+
+  std::map<unsigned int, std::vector<double>> messages;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const unsigned int rank : takers(points.position[i]))
+      if (rank != me)
+        points.pack(i, messages[rank]);
+  MaterialPoints<dim> result(points.n_internal());
+  exchange(messages, result, comm);
+  return result;
 }
 
 template std::uint64_t send_to_owners(MaterialPoints<2> &,
@@ -42,4 +71,12 @@ template std::uint64_t send_to_owners(MaterialPoints<2> &,
 template std::uint64_t send_to_owners(MaterialPoints<3> &,
                                       const std::function<unsigned int(const Point<3> &)> &,
                                       const MPI_Comm);
+template MaterialPoints<2>
+neighbours_from_others(const MaterialPoints<2> &,
+                       const std::function<std::vector<unsigned int>(const Point<2> &)> &,
+                       const MPI_Comm);
+template MaterialPoints<3>
+neighbours_from_others(const MaterialPoints<3> &,
+                       const std::function<std::vector<unsigned int>(const Point<3> &)> &,
+                       const MPI_Comm);
 } // namespace scree

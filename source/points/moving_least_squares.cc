@@ -249,34 +249,37 @@ double
 MovingLeastSquares<dim>::gather(const unsigned int body, const Point<dim> &x, const double radius,
                                 Neighbours &neighbours) const
 {
-  unsigned int n             = 0;
-  const double square_radius = radius * radius, inverse_radius = 1. / radius;
-  double       sum_weights = 0., sum_spacings = 0.;
+  const double inverse_radius = 1. / radius;
+  unsigned int n              = 0;
   search.for_each_range(body, x, radius, [&](const unsigned int first, const unsigned int last) {
     neighbours.reserve(n + last - first + n_lanes);
     for (unsigned int i = first; i < last; ++i)
       {
-        double square = 0., offset[dim];
+        // Written always, kept by advancing n: no branch to mispredict.
+        double square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            offset[d] = search.coordinate(d)[i] - x[d];
-            square += offset[d] * offset[d];
+            const double offset     = (search.coordinate(d)[i] - x[d]) * inverse_radius;
+            neighbours.offset[d][n] = offset;
+            square += offset * offset;
           }
-        if (!(square < square_radius))
-          continue;
-        for (unsigned int d = 0; d < dim; ++d)
-          neighbours.offset[d][n] = offset[d] * inverse_radius;
-        const double s       = 1.5 * std::sqrt(square) * inverse_radius;
-        const double spline  = s <= 0.5 ? 0.75 - s * s : 0.5 * (1.5 - s) * (1.5 - s);
-        neighbours.spline[n] = spline;
+        neighbours.spline[n] = square;
         neighbours.place[n]  = i;
-        sum_weights += spline;
-        sum_spacings += spline * spacing[i];
-        ++n;
+        n += square < 1.;
       }
   });
   neighbours.n = n;
   neighbours.reserve(n + n_lanes);
+  double sum_weights = 0., sum_spacings = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      const double square  = 2.25 * neighbours.spline[i];
+      const double rest    = 1.5 - std::sqrt(square);
+      const double spline  = square <= 0.25 ? 0.75 - square : 0.5 * rest * rest;
+      neighbours.spline[i] = spline;
+      sum_weights += spline;
+      sum_spacings += spline * spacing[neighbours.place[i]];
+    }
   for (; n < neighbours.n_padded(); ++n)
     {
       neighbours.spline[n] = 0.;

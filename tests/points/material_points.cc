@@ -273,5 +273,56 @@ TEST(MigrationMPI, nothing_is_lost)
   check_migration<2>();
   check_migration<3>();
 }
+// Moving least squares from own points and copies of the others' near the boundary between the
+// processes are those from all points.
+template <int dim>
+void
+check_neighbours()
+{
+  const MPI_Comm      comm        = MPI_COMM_WORLD;
+  const unsigned int  me          = Utilities::MPI::this_mpi_process(comm);
+  const unsigned int  n_processes = Utilities::MPI::n_mpi_processes(comm);
+  const double        cell_size = 0.1, radius = 1.75 * cell_size, slab = 1. / n_processes;
+  const auto          all = make_points<dim>(12, 1, 1);
+  MaterialPoints<dim> own(1);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (std::min(static_cast<unsigned int>(all.position[i][0] / slab), n_processes - 1) == me)
+      own.add_copy(all, i);
+  const auto takers = [&](const Point<dim> &x) {
+    std::vector<unsigned int> ranks;
+    for (unsigned int rank = 0; rank < n_processes; ++rank)
+      if (x[0] > rank * slab - radius && x[0] < (rank + 1) * slab + radius)
+        ranks.push_back(rank);
+    return ranks;
+  };
+  const auto others = neighbours_from_others<dim>(own, takers, comm);
+  EXPECT_EQ(others.size() > 0, n_processes > 1);
+  EXPECT_LT(own.size() + others.size(), all.size() + (n_processes == 1));
+  for (std::size_t i = 0; i < others.size(); ++i)
+    own.add_copy(others, i);
+
+  Targets<dim> targets;
+  for (unsigned int i = 0; i <= 10; ++i)
+    {
+      Point<dim> x;
+      x[0] = (me + 0.1 * i) * slab;
+      x[1] = 0.4 + 0.03 * i;
+      targets.position.push_back(x);
+      targets.body.push_back(0);
+      targets.cell_size.push_back(cell_size);
+    }
+  const auto value = [&](const MaterialPoints<dim> &points) {
+    return moving_least_squares(points, {0, 1.75}).weights(targets).values(points.internal, 1);
+  };
+  const auto from_all = value(all), from_near = value(own);
+  for (std::size_t t = 0; t < from_all.size(); ++t)
+    EXPECT_NEAR(from_near[t], from_all[t], 1e-9);
+}
+
+TEST(MigrationMPI, neighbours_of_targets)
+{
+  check_neighbours<2>();
+  check_neighbours<3>();
+}
 } // namespace
 } // namespace scree

@@ -129,7 +129,9 @@ check_transfer(const unsigned int degree, const std::string &grid)
         for (const auto &unit : quadrature.whole_cell.points)
           add(unit);
     }
-  for (const unsigned int m : {0, 2, 3})
+  const std::vector<unsigned int> seedings
+    = dim == 2 ? std::vector<unsigned int>{0, 2, 3} : std::vector<unsigned int>{2};
+  for (const unsigned int m : seedings) // 0: at the quadrature points
     {
       const auto points = m == 0 ? seeding.at_quadrature_points(0) : seeding.on_sub_grid(m, 0);
       const auto weights
