@@ -37,11 +37,9 @@ moving_nodes(const Lattice<dim> &lattice, const NodalVectors<dim> &velocity, con
              const double band)
 {
   const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
-  if (!std::isfinite(band))
-    return all_nodes(grid);
-  const double       half_width = band * lattice.spacing();
-  const NodeSet<dim> near       = nodes_near_contour(grid, lattice.values(), half_width);
-  double             speed      = 0;
+  const double        half_width = band * lattice.spacing();
+  const NodeSet<dim>  near       = nodes_near_contour(grid, lattice.values(), half_width);
+  double              speed      = 0;
   for (const NodeRun &run : near.runs)
     speed = std::max(speed, largest_speed<dim>(velocity, run.node, run.n));
   return nodes_near_contour(grid, lattice.values(), half_width + duration * speed);

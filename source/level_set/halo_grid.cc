@@ -152,6 +152,8 @@ NodeSet<dim>
 nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,
                    const double half_width)
 {
+  if (!std::isfinite(half_width))
+    return all_nodes(grid);
   constexpr int block = 8; // nodes, a register of the widest instructions
   NodeSet<dim>  result{grid, {}, 0, false};
   const int     nx = grid.n_nodes[0];

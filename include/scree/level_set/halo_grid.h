@@ -70,7 +70,7 @@ NodeSet<dim> all_nodes(const HaloGrid<dim> &grid);
 
 /**
  * The nodes with `|phi| <= half_width` (length, if phi is a distance), the runs extended to
- * multiples of 8 nodes.
+ * multiples of 8 nodes; all nodes if it is infinite.
  */
 template <int dim>
 NodeSet<dim> nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,

@@ -2,6 +2,8 @@
 
 #include <scree/level_set/lattice.h>
 
+#include <limits>
+
 namespace scree
 {
 /** When and how a level set is made a distance again. */
@@ -9,6 +11,13 @@ struct ReinitialisationOptions
 {
   double       tolerance = 0.1; // of ||grad phi| - 1|, up to which values stay as they are
   unsigned int degree    = 3;   // of the interpolant whose contour is watched
+  /**
+   * Half width in spacings of the narrow band, at least 8: slopes are watched at nodes with |phi|
+   * up to half of it, and values are marched up to a distance of it; the others stay as they are.
+   * For advection in a band, that band plus |du| and the 2 spacings that its interpolation reaches
+   * further. The slopes of phi there should be within a factor of 2 of 1. Infinite: all nodes.
+   */
+  double band = std::numeric_limits<double>::infinity();
 };
 
 /** What a reinitialisation found and did. */
