@@ -49,7 +49,7 @@ private:
   // The points of the contour at its cuts of edges.
   std::vector<Point<dim>> contour_points() const;
 
-  // Calls `f(node, with_halo)` for all nodes that are watched.
+  // Calls `f(node, with_halo)` for all nodes up to the width of the band.
   template <typename F>
   void for_each_node(const F &f) const;
 
@@ -70,7 +70,7 @@ Reinitialisation<dim>::Reinitialisation(Lattice<dim>                  &lattice,
     : lattice(lattice)
     , options(options)
     , nodes(nodes_near_contour(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()},
-                               lattice.values(), 0.5 * options.band * lattice.spacing()))
+                               lattice.values(), options.band * lattice.spacing()))
     , contour_distance(lattice)
 {
   Assert(options.band >= 2 * near_reach, ExcMessage("A band of at least 8 spacings."));

@@ -19,7 +19,8 @@ struct ExtensionOptions
   Extrapolation extrapolation = Extrapolation::linear;
   /**
    * Half width in spacings of the narrow band: nodes with larger |phi| keep their values. For
-   * advection in a band, that band plus 2 |du| and 2 spacings. Infinite: all nodes.
+   * semi-Lagrangian advection in a band, that band plus 2 |du| and 2 spacings, as nodes that |du|
+   * beyond it move and interpolate du |du| further. Infinite: all nodes.
    */
   double band = std::numeric_limits<double>::infinity();
 };

@@ -13,9 +13,9 @@ struct ReinitialisationOptions
   unsigned int degree    = 3;   // of the interpolant whose contour is watched
   /**
    * Half width in spacings of the narrow band, at least 8: slopes are watched at nodes with |phi|
-   * up to half of it, and values are marched up to a distance of it; the others stay as they are.
-   * For advection in a band, that band plus |du| and the 2 spacings that its interpolation reaches
-   * further. The slopes of phi there should be within a factor of 2 of 1. Infinite: all nodes.
+   * up to it and values are marched up to that distance; the others stay as they are. With
+   * advection in a band the one of the extension, so that phi is renewed where its motion ended,
+   * before the extension follows it. Infinite: all nodes.
    */
   double band = std::numeric_limits<double>::infinity();
 };
