@@ -296,7 +296,7 @@ compute_distances(Lattice<dim> &lattice)
 {
   AssertThrow(has_contour(lattice),
               ExcMessage("The level set has no zero contour on its lattice."));
-  const std::vector<std::size_t> near = nodes_near_contour(lattice);
+  const std::vector<std::size_t> near = nodes_at_cut_edges(lattice);
   ContourDistance<dim>           contour_distance(lattice);
   std::vector<double>            distances;
   distances.reserve(near.size());

@@ -15,7 +15,7 @@ namespace
 {
 constexpr signed char full_weight = 6;
 constexpr int         kink_reach  = 2; // nodes
-constexpr int         band_width  = 2; // nodes beyond those of cut cells
+constexpr int         strip_width = 2; // nodes beyond those of cut cells
 constexpr double      near_reach  = 4; // spacings; up to there values may stay when others do not
 
 template <int dim>
@@ -29,21 +29,21 @@ public:
 private:
   using Index = typename Lattice<dim>::Index;
 
-  void find_band();
+  void find_strip();
 
   // Writes what slopes deviate into `count`, and the weights of nodes beyond the tolerance. The
-  // band has one weight.
+  // strip has one weight.
   void measure_slopes();
 
   // The weights of the rebuilt values: 1 up to 2 steps from nodes beyond the tolerance, falling to
   // 0 over 6 more.
   void spread_weights();
 
-  void rebuild_band();
+  void rebuild_strip();
 
   void rebuild_rest();
 
-  // Nodes of the band near kinks, whose factors are unknown (0), take those of the others.
+  // Nodes of the strip near kinks, whose factors are unknown (0), take those of the others.
   void spread_factors(std::vector<double> &factors) const;
 
   // The points of the contour at its cuts of edges.
@@ -56,10 +56,10 @@ private:
   Lattice<dim>                  &lattice;
   const ReinitialisationOptions &options;
   std::array<std::size_t, dim>   stride;
-  NodeSet<dim>                   nodes;   // that are watched
-  std::vector<unsigned char>     in_band; // with halo
-  std::vector<signed char>       weight;  // with halo, times 6
-  std::vector<std::size_t>       band;    // in order
+  NodeSet<dim>                   nodes;    // that are watched
+  std::vector<unsigned char>     in_strip; // with halo
+  std::vector<signed char>       weight;   // with halo, times 6
+  std::vector<std::size_t>       strip;    // in order
   ContourDistance<dim>           contour_distance;
   ReinitialisationCount          count{0, 0, 0, 0, 0};
 };
@@ -80,7 +80,7 @@ Reinitialisation<dim>::Reinitialisation(Lattice<dim>                  &lattice,
       stride[d] = step;
       step *= lattice.n_nodes()[d];
     }
-  find_band();
+  find_strip();
 }
 
 template <int dim>
@@ -95,28 +95,28 @@ Reinitialisation<dim>::for_each_node(const F &f) const
 
 template <int dim>
 void
-Reinitialisation<dim>::find_band()
+Reinitialisation<dim>::find_strip()
 {
   // Where both signs are within n + 1 nodes there is a cut cell within n.
-  constexpr int width = band_width + 1;
+  constexpr int width = strip_width + 1;
   static_assert(width <= HaloGrid<dim>::width, "The halo is too narrow.");
-  in_band.assign(nodes.grid.size(), 0);
+  in_strip.assign(nodes.grid.size(), 0);
   for_each_node([&](const std::size_t node, const std::size_t at) {
-    in_band[at] = lattice.values()[node] < 0 ? 1 : 2;
+    in_strip[at] = lattice.values()[node] < 0 ? 1 : 2;
   });
   for (unsigned int d = 0; d < dim; ++d)
     {
-      const std::vector<unsigned char> signs = in_band;
+      const std::vector<unsigned char> signs = in_strip;
       const std::ptrdiff_t             step  = nodes.grid.stride(d);
       for (const NodeRun &run : nodes.runs)
         for (int k = -width; k <= width; ++k)
           for (int i = 0; i < run.n; ++i)
-            in_band[run.with_halo + i] |= signs[run.with_halo + i + k * step];
+            in_strip[run.with_halo + i] |= signs[run.with_halo + i + k * step];
     }
   for_each_node([&](const std::size_t node, const std::size_t at) {
-    in_band[at] = in_band[at] == 3;
-    if (in_band[at])
-      band.push_back(node);
+    in_strip[at] = in_strip[at] == 3;
+    if (in_strip[at])
+      strip.push_back(node);
   });
 }
 
@@ -148,7 +148,7 @@ Reinitialisation<dim>::measure_slopes()
               square += difference * difference;
             }
           const double deviation = std::abs(std::sqrt(square) / (2 * lattice.spacing()) - 1);
-          const bool   is_near   = in_band[run.with_halo + i];
+          const bool   is_near   = in_strip[run.with_halo + i];
           double      &largest   = is_near ? count.deviation_near : count.deviation_far;
           if (deviation > options.tolerance)
             {
@@ -167,7 +167,7 @@ Reinitialisation<dim>::spread_weights()
 {
   if (count.n_changed_near > 0)
     for_each_node([&](const std::size_t, const std::size_t at) {
-      if (in_band[at])
+      if (in_strip[at])
         weight[at] = full_weight + 2;
     });
   // to neighbours less 1, axis by axis
@@ -189,11 +189,11 @@ void
 Reinitialisation<dim>::spread_factors(std::vector<double> &factors) const
 {
   const auto factor_of = [&](const std::size_t node) {
-    const auto at = std::lower_bound(band.begin(), band.end(), node);
-    return at != band.end() && *at == node ? factors[at - band.begin()] : 0.;
+    const auto at = std::lower_bound(strip.begin(), strip.end(), node);
+    return at != strip.end() && *at == node ? factors[at - strip.begin()] : 0.;
   };
-  std::vector<std::size_t> open; // positions in the band
-  for (std::size_t b = 0; b < band.size(); ++b)
+  std::vector<std::size_t> open; // positions in the strip
+  for (std::size_t b = 0; b < strip.size(); ++b)
     if (factors[b] == 0)
       open.push_back(b);
   while (!open.empty())
@@ -202,7 +202,7 @@ Reinitialisation<dim>::spread_factors(std::vector<double> &factors) const
       std::vector<std::size_t>                    still_open;
       for (const std::size_t b : open)
         {
-          const Index  node = lattice.index(band[b]);
+          const Index  node = lattice.index(strip[b]);
           double       sum  = 0;
           unsigned int n    = 0;
           for (unsigned int d = 0; d < dim; ++d)
@@ -236,7 +236,7 @@ Reinitialisation<dim>::contour_points() const
 {
   std::vector<Point<dim>> result;
   const double           *values = lattice.values().data();
-  for (const std::size_t i : band)
+  for (const std::size_t i : strip)
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Index node = lattice.index(i);
@@ -256,22 +256,22 @@ Reinitialisation<dim>::contour_points() const
 
 template <int dim>
 void
-Reinitialisation<dim>::rebuild_band()
+Reinitialisation<dim>::rebuild_strip()
 {
   std::vector<double> &values = lattice.values();
-  std::vector<double>  factors(band.size(), 0.);
-  for (std::size_t b = 0; b < band.size(); ++b)
-    if (values[band[b]] != 0 && !contour_distance.kink_near(lattice.index(band[b]), kink_reach))
+  std::vector<double>  factors(strip.size(), 0.);
+  for (std::size_t b = 0; b < strip.size(); ++b)
+    if (values[strip[b]] != 0 && !contour_distance.kink_near(lattice.index(strip[b]), kink_reach))
       {
-        const double distance = contour_distance(band[b]);
+        const double distance = contour_distance(strip[b]);
         if (std::isfinite(distance))
-          factors[b] = distance / values[band[b]];
+          factors[b] = distance / values[strip[b]];
       }
   spread_factors(factors);
   const std::vector<Point<dim>> contour = contour_points();
-  for (std::size_t b = 0; b < band.size(); ++b)
-    values[band[b]] *= factors[b];
-  count.n_changed_near = band.size();
+  for (std::size_t b = 0; b < strip.size(); ++b)
+    values[strip[b]] *= factors[b];
+  count.n_changed_near = strip.size();
   for (const Point<dim> &x : contour)
     {
       const auto [value, gradient] = lattice.value_and_gradient(x, options.degree);
@@ -287,12 +287,12 @@ Reinitialisation<dim>::rebuild_rest()
   std::vector<double> before;
   nodes.pack(lattice.values(), before);
   std::vector<char> known(lattice.values().size(), 0);
-  for (const std::size_t i : band)
+  for (const std::size_t i : strip)
     known[i] = 1;
   march_distances(lattice, known, options.band);
   for (const NodeRun &run : nodes.runs)
     for (int i = 0; i < run.n; ++i)
-      if (!in_band[run.with_halo + i])
+      if (!in_strip[run.with_halo + i])
         {
           double      &value  = lattice.values()[run.node + i];
           const double old    = before[run.packed + i];
@@ -311,7 +311,7 @@ Reinitialisation<dim>::run()
   measure_slopes();
   const bool near = count.deviation_near > options.tolerance;
   if (near)
-    rebuild_band();
+    rebuild_strip();
   if (near || count.deviation_far > options.tolerance)
     rebuild_rest();
   return count;

@@ -99,7 +99,8 @@ check_reinitialisation(const double h)
   // the slope jumps at the edge of the band: marched again, the values are the same
   const Lattice<dim> once = in_band;
   EXPECT_EQ(reinitialise(in_band, {0.1, 3, 16.}).n_changed_near, 0u);
-  EXPECT_EQ(in_band.values(), once.values());
+  for (std::size_t i = 0; i < steep.values().size(); ++i)
+    EXPECT_NEAR(in_band.values()[i], once.values()[i], 1e-14);
 }
 
 TEST(Bands, ReinitialisationIsTheSameInABand)

@@ -23,9 +23,9 @@ struct ReinitialisationOptions
 /** What a reinitialisation found and did. */
 struct ReinitialisationCount
 {
-  double      deviation_near; // largest ||grad phi| - 1| in the band around the contour, before
+  double      deviation_near; // largest ||grad phi| - 1| in the strip around the contour, before
   double      deviation_far;  // the same elsewhere
-  std::size_t n_changed_near; // nodes in the band that got a new value
+  std::size_t n_changed_near; // nodes in the strip that got a new value
   std::size_t n_changed_far;  // the same elsewhere
   double      contour_motion; // largest distance from the old to the new contour, length
 };
@@ -33,13 +33,13 @@ struct ReinitialisationCount
 /**
  * Makes a level set a signed distance where it is needed, without moving the contour.
  *
- * The band holds the nodes of cut cells and two more around: the values on which the contours of
+ * The strip holds the nodes of cut cells and two more around: the values on which the contours of
  * all interpolants depend. It stays as it is, to the last bit, as long as `||grad phi| - 1|`
  * (central differences) is within the tolerance in it; slopes within 2 nodes of a kink (see
  * ContourDistance) do not count. Else its nodes take the distance to the closest point of the cubic
  * interpolant, except near kinks, where phi is multiplied by the mean factor of the nodes around.
  *
- * Where slopes are beyond the tolerance, the other nodes are marched from the band
+ * Where slopes are beyond the tolerance, the other nodes are marched from the strip
  * (march_distances()); the new values come in over 6 nodes, from 8 to 2 steps away from such
  * places, and beyond 8 spacings from the contour everywhere. Marching everything instead makes the
  * medial axis sharp at every call, which doubles the error of Zalesak's disc.
