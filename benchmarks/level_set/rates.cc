@@ -2,7 +2,6 @@
 // beside a hand-written fused kernel for this machine alone as its limit, the same in a narrow
 // band, the back-trace and the semi-Lagrangian update, distances, whole steps.
 
-#include <scree/level_set/advection.h>
 #include <scree/level_set/extension.h>
 #include <scree/level_set/fast_marching.h>
 #include <scree/level_set/map_velocity.h>
@@ -11,7 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
+
+#include "stage_rate.h"
 
 // limit.cc: one Euler stage of n^dim inner points on an array of (n + 6)^dim points.
 void limit_stage(int dim, int n, double dt_over_h, double epsilon,
@@ -22,82 +22,6 @@ namespace
 {
 using namespace dealii;
 using namespace scree;
-
-// The lowest CPU time of one call of f in seconds, over about half a second.
-template <typename F>
-double
-fastest(const F &f)
-{
-  const auto   now   = []() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-  const double begin = now();
-  double       best  = 1e300;
-  while (now() - begin < 0.5)
-    {
-      const double start = now();
-      f();
-      best = std::min(best, now() - start);
-    }
-  return best;
-}
-
-// A ball of radius 0.3 in [-1/2, 1/2]^dim with n nodes per direction.
-template <int dim>
-Lattice<dim>
-ball(const int n)
-{
-  LatticeFrame<dim> frame;
-  frame.spacing = 1. / (n - 1);
-  for (unsigned int d = 0; d < dim; ++d)
-    frame.origin[d] = -0.5;
-  std::array<int, dim> count;
-  count.fill(n);
-  Lattice<dim> lattice(frame, {}, count);
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    lattice.values()[i] = (lattice.node(lattice.index(i)) - Point<dim>()).norm() - 0.3;
-  return lattice;
-}
-
-// A turning field at its nodes.
-template <int dim>
-NodalVectors<dim>
-turning(const Lattice<dim> &lattice, const double factor)
-{
-  NodalVectors<dim> result;
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    {
-      const Point<dim> x = lattice.node(lattice.index(i));
-      result[0].push_back(-factor * x[1]);
-      result[1].push_back(factor * x[0]);
-      if (dim == 3)
-        result[dim - 1].push_back(0.3 * factor * x[0]);
-    }
-  return result;
-}
-
-// Million nodes times stages per second of three stages at the nodes of a set.
-template <int dim>
-double
-stage_rate(const Lattice<dim> &lattice, const NodeSet<dim> &nodes, const Upwinding upwinding)
-{
-  const NodalVectors<dim> everywhere = turning(lattice, 1.);
-  NodalVectors<dim>       velocity;
-  for (unsigned int d = 0; d < dim; ++d)
-    nodes.pack(everywhere[d], velocity[d]);
-  std::vector<double> phi(nodes.grid.size()), phi_1, phi_2;
-  nodes.load(lattice.values(), phi.data());
-  phi_1 = phi_2 = phi;
-  const auto stage
-    = [&](const double weight, const std::vector<double> &from, std::vector<double> &to) {
-        hj_stage<dim>(nodes, upwinding, velocity, {weight, 0.25 * lattice.spacing()},
-                      {{from.data(), phi.data()}}, to.data());
-      };
-  const double time = fastest([&]() {
-    stage(0., phi, phi_1);
-    stage(0.75, phi_1, phi_2);
-    stage(1. / 3., phi_2, phi);
-  });
-  return 3e-6 * nodes.n_nodes / time;
-}
 
 template <int dim>
 double
@@ -115,9 +39,6 @@ limit_rate(const Lattice<dim> &lattice, const int n)
   });
   return 1e-6 * lattice.values().size() / time;
 }
-
-// Half width of the bands, in spacings.
-constexpr double half_width = 10;
 
 template <int dim>
 void
@@ -172,54 +93,76 @@ increment_row(const int n)
 }
 
 // A load step as the mechanics will take it: du, known where phi < 0, is extended linearly, phi
-// moves, and is reinitialised.
+// moves, and is reinitialised. The contour moves by one spacing.
 template <int dim>
 void
-whole_step_row(const int n)
-{
-  const Lattice<dim>      lattice = ball<dim>(n);
-  const NodalVectors<dim> du      = turning(lattice, 0.02);
-  std::vector<char>       known;
-  for (const double value : lattice.values())
-    known.push_back(value < 0);
-  AdvectionScheme scheme;
-  scheme.band               = half_width;
-  std::size_t       n_nodes = 0;
-  NodalVectors<dim> extended;
-  Lattice<dim>      moved            = lattice;
-  const double      extension        = fastest([&]() {
-    extended = du;
-    extend<dim, dim>(lattice, known, Extrapolation::linear, extended);
-  });
-  const double      advection        = fastest([&]() {
-    moved = lattice;
-    n_nodes
-      = advect_increment<dim>(moved, extended, IncrementMotion::semi_lagrangian, scheme).n_nodes;
-  });
-  const double      reinitialisation = fastest([&]() {
-    Lattice<dim> copy = moved;
-    reinitialise(copy);
-  });
-  const double      distances        = fastest([&]() {
-    Lattice<dim> copy = moved;
-    compute_distances(copy);
-  });
-  const double      per_node         = 1e9 / n_nodes;
-  std::printf("| %d^%d | %.0f | %.0f | %.0f | %.0f | %.0f |\n", n, dim, per_node * extension,
-              per_node * advection, per_node * reinitialisation,
-              per_node * (extension + advection + reinitialisation), per_node * distances);
-}
-
-template <int dim>
-void
-distance_row(const int n)
+whole_step_row(const int n, const bool in_bands)
 {
   const Lattice<dim> lattice = ball<dim>(n);
-  const double       time    = fastest([&]() {
-    Lattice<dim> copy = lattice;
-    compute_distances(copy);
+  NodalVectors<dim>  du      = turning(lattice, lattice.spacing() / 0.3);
+  std::vector<char>  known;
+  for (const double value : lattice.values())
+    known.push_back(value < 0);
+  AdvectionScheme         scheme;
+  ExtensionOptions        extension;
+  ReinitialisationOptions reinitialisation;
+  scheme.band = half_width;
+  if (in_bands)
+    {
+      extension.band        = half_width + 4;
+      reinitialisation.band = half_width + 4;
+    }
+  const double extend_time  = fastest([&]() { extend<dim, dim>(lattice, known, extension, du); });
+  Lattice<dim> moved        = lattice;
+  const auto   start        = [&]() { moved.values() = lattice.values(); };
+  std::size_t  n_nodes      = 0;
+  const double advect_time  = fastest(start, [&]() {
+    n_nodes = advect_increment<dim>(moved, du, IncrementMotion::semi_lagrangian, scheme).n_nodes;
   });
-  std::printf("| %d^%d | %.1f |\n", n, dim, 1e-6 * lattice.values().size() / time);
+  const double watch_time   = fastest([&]() { reinitialise(moved, reinitialisation); });
+  const double rebuild_time = fastest(
+    [&]() {
+      start();
+      for (double &value : moved.values())
+        value *= 1.2;
+    },
+    [&]() { reinitialise(moved, reinitialisation); });
+  const double per_node = 1e9 / n_nodes;
+  std::printf("| %d^%d | %s | %.0f | %.0f | %.0f | %.0f | %.0f | %.0f |\n", n, dim,
+              in_bands ? "bands" : "all nodes", per_node * extend_time, per_node * advect_time,
+              per_node * watch_time, per_node * rebuild_time,
+              per_node * (extend_time + advect_time + watch_time),
+              per_node * (extend_time + advect_time + rebuild_time));
+}
+
+// Fast marching, reinitialisation and extension of all nodes.
+template <int dim>
+void
+lattice_row(const int n)
+{
+  const Lattice<dim> lattice   = ball<dim>(n);
+  Lattice<dim>       work      = lattice;
+  const double       n_nodes   = lattice.values().size();
+  const double       distances = fastest([&]() { compute_distances(work); });
+  const double       rebuilt   = fastest(
+    [&]() {
+      for (std::size_t i = 0; i < work.values().size(); ++i)
+        work.values()[i] = 1.2 * lattice.values()[i];
+    },
+    [&]() { reinitialise(work); });
+  NodalVectors<dim> du = turning(lattice, 1.);
+  std::vector<char> known;
+  for (const double value : lattice.values())
+    known.push_back(value < 0);
+  const double n_extended  = std::count(known.begin(), known.end(), char(0));
+  const auto   extend_rate = [&](const Extrapolation extrapolation) {
+    return 1e-6 * n_extended
+           / fastest([&]() { extend<dim, dim>(lattice, known, {extrapolation}, du); });
+  };
+  const double constant = extend_rate(Extrapolation::constant),
+               linear   = extend_rate(Extrapolation::linear);
+  std::printf("| %d^%d | %.1f | %.1f | %.1f | %.1f |\n", n, dim, 1e-6 * n_nodes / distances,
+              1e-6 * n_nodes / rebuilt, constant, linear);
 }
 
 // A ball of 0.45 n spacings in n^3 nodes, dense or in tiles.
@@ -276,24 +219,32 @@ main()
   for (const int n : {64, 128, 192})
     increment_row<3>(n);
 
-  std::puts("\nSigned distances by fast marching, million nodes per second.\n\n| lattice | rate "
-            "|\n|---|---|");
+  std::puts("\nAll nodes, million nodes per second: signed distances by fast marching, "
+            "reinitialisation of a ball whose slope is\n"
+            "1.2 everywhere, extension of a vector from phi < 0 to the nodes with phi > 0.\n\n"
+            "| lattice | distances | reinitialisation | extension, constant | extension, linear "
+            "|\n|---|---|---|---|---|");
   for (const int n : {256, 1024})
-    distance_row<2>(n);
+    lattice_row<2>(n);
   for (const int n : {64, 128})
-    distance_row<3>(n);
+    lattice_row<3>(n);
 
-  std::puts("\nA whole load step that turns the ball by 0.02, nanoseconds per node of the band: "
-            "linear extension of the increment to\n"
-            "the whole lattice, semi-Lagrangian advection, reinitialisation where needed, their "
-            "sum; beside them the\n"
-            "distances of the whole lattice by fast marching.\n\n"
-            "| lattice | extension | advection | reinitialisation | whole step | (distances) "
-            "|\n|---|---|---|---|---|---|");
-  for (const int n : {256, 1024})
-    whole_step_row<2>(n);
-  for (const int n : {64, 128})
-    whole_step_row<3>(n);
+  std::puts("\nA whole load step that turns the ball by one spacing at its contour, nanoseconds "
+            "per node of the advected band:\n"
+            "linear extension of the increment, semi-Lagrangian advection in its band of 10 "
+            "spacings, reinitialisation where no slope\n"
+            "is beyond the tolerance and where all are; their sums. Extension and "
+            "reinitialisation of all nodes and in bands of\n14 spacings.\n\n"
+            "| lattice | extension and reinitialisation | extension | advection | "
+            "reinitialisation, not needed | needed | whole step | with reinitialisation "
+            "|\n|---|---|---|---|---|---|---|---|");
+  for (const bool in_bands : {false, true})
+    {
+      for (const int n : {256, 1024})
+        whole_step_row<2>(n, in_bands);
+      for (const int n : {64, 128})
+        whole_step_row<3>(n, in_bands);
+    }
 
   std::puts("\nA ball of 0.45 n spacings, stored densely and in tiles: megabytes, seconds to build "
             "the tiles, nanoseconds\n"

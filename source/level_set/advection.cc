@@ -34,17 +34,15 @@ largest_speed(const NodalVectors<dim> &v, const std::size_t first, const std::si
 template <int dim>
 NodeSet<dim>
 moving_nodes(const Lattice<dim> &lattice, const NodalVectors<dim> &velocity, const double duration,
-             const double band)
+             const double band, const bool whole_blocks = true)
 {
   const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
-  if (!std::isfinite(band))
-    return all_nodes(grid);
-  const double       half_width = band * lattice.spacing();
-  const NodeSet<dim> near       = nodes_near_contour(grid, lattice.values(), half_width);
-  double             speed      = 0;
+  const double        half_width = band * lattice.spacing();
+  const NodeSet<dim>  near  = nodes_near_contour(grid, lattice.values(), half_width, whole_blocks);
+  double              speed = 0;
   for (const NodeRun &run : near.runs)
     speed = std::max(speed, largest_speed<dim>(velocity, run.node, run.n));
-  return nodes_near_contour(grid, lattice.values(), half_width + duration * speed);
+  return nodes_near_contour(grid, lattice.values(), half_width + duration * speed, whole_blocks);
 }
 
 // The nodes' own vectors.
@@ -240,8 +238,9 @@ advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const Incre
     return advect<dim>(lattice, du, 1., scheme);
 
   assert_sizes<dim>(lattice, du);
-  const NodeSet<dim> nodes = moving_nodes<dim>(lattice, du, 1., scheme.band);
-  NodalVectors<dim>  v     = packed<dim>(nodes, du);
+  const NodeSet<dim> nodes
+    = moving_nodes<dim>(lattice, du, 1., scheme.band, motion != IncrementMotion::semi_lagrangian);
+  NodalVectors<dim> v = packed<dim>(nodes, du);
   largest_speed<dim>(v, 0, nodes.n_nodes); // throws unless finite
   AdvectionCount count{1, 0, nodes.n_nodes};
   if (motion == IncrementMotion::map_velocity)

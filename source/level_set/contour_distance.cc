@@ -59,7 +59,7 @@ for_each_edge(const Lattice<dim> &lattice, const F &f)
 
 template <int dim>
 std::vector<std::size_t>
-nodes_near_contour(const Lattice<dim> &lattice)
+nodes_at_cut_edges(const Lattice<dim> &lattice)
 {
   const std::vector<double> &values = lattice.values();
   std::vector<char>          cut(values.size(), 0);
@@ -265,7 +265,7 @@ ContourDistance<dim>::operator()(const std::size_t offset)
 }
 
 #define INSTANTIATE(dim)                                                      \
-  template std::vector<std::size_t> nodes_near_contour(const Lattice<dim> &); \
+  template std::vector<std::size_t> nodes_at_cut_edges(const Lattice<dim> &); \
   template class ContourDistance<dim>;
 
 INSTANTIATE(2)

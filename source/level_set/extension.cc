@@ -16,8 +16,8 @@ class Extension
 public:
   using Values = std::array<std::vector<double>, n_components>;
 
-  Extension(const Lattice<dim> &phi, const std::vector<char> &known, Extrapolation extrapolation,
-            Values &v);
+  Extension(const Lattice<dim> &phi, const std::vector<char> &known,
+            const ExtensionOptions &options, Values &v);
 
   ExtensionCount run();
 
@@ -43,8 +43,8 @@ private:
 
   std::array<int, dim> position(std::size_t node) const;
 
-  // The unknown nodes by |phi|.
-  std::vector<std::uint32_t> order() const;
+  // The unknown nodes of the band by |phi|.
+  std::vector<std::uint32_t> order(double band) const;
 
   // The differences towards nodes with smaller |phi|.
   Stencil stencil(std::size_t node) const;
@@ -52,9 +52,15 @@ private:
   // First-order differences towards all neighbours with values, with equal weights.
   Stencil neighbours_with_values(std::size_t node) const;
 
-  // The differences of v along an axis at a known node; false if no neighbour there is known.
-  bool set_gradient_of_known(std::size_t node, unsigned int axis);
+  // The differences of v along an axis at a known node, those of its known neighbours where it
+  // sticks out.
+  Gradient gradient_of_known(std::size_t node, unsigned int axis) const;
 
+  // The same; false if no neighbour there is known.
+  bool difference_of_known(std::size_t node, unsigned int axis, Gradient &result) const;
+
+  // Numbers the gradients of the nodes to extend to and of the known ones that their stencils
+  // reach, and sets the latter.
   void set_gradients_of_known();
 
   void set(std::size_t node, const Stencil &stencil);
@@ -64,14 +70,16 @@ private:
   Values                         &v;
   std::vector<char>               has_value;
   std::array<std::ptrdiff_t, dim> stride;
-  std::vector<Gradient>           gradients; // dim per node, if linear
+  std::vector<std::uint32_t>      nodes;        // to extend to, in their order
+  std::vector<std::uint32_t>      gradients_at; // node -> its first gradient, if linear
+  std::vector<Gradient>           gradients;    // dim per node that needs them
 };
 
 template <int dim, std::size_t n_components>
 Extension<dim, n_components>::Extension(const Lattice<dim> &phi, const std::vector<char> &known,
-                                        const Extrapolation extrapolation, Values &v)
+                                        const ExtensionOptions &options, Values &v)
     : phi(phi)
-    , linear(extrapolation == Extrapolation::linear)
+    , linear(options.extrapolation == Extrapolation::linear)
     , v(v)
     , has_value(known)
 {
@@ -86,6 +94,7 @@ Extension<dim, n_components>::Extension(const Lattice<dim> &phi, const std::vect
       stride[d] = step;
       step *= phi.n_nodes()[d];
     }
+  nodes = order(options.band * phi.spacing());
   if (linear)
     set_gradients_of_known();
 }
@@ -115,17 +124,17 @@ Extension<dim, n_components>::position(const std::size_t node) const
 
 template <int dim, std::size_t n_components>
 std::vector<std::uint32_t>
-Extension<dim, n_components>::order() const
+Extension<dim, n_components>::order(const double band) const
 {
   // Sorting keys and nodes together keeps the comparisons local.
-  std::vector<std::pair<float, std::uint32_t>> nodes;
+  std::vector<std::pair<float, std::uint32_t>> keys;
   for (std::size_t i = 0; i < has_value.size(); ++i)
-    if (!has_value[i])
-      nodes.emplace_back(static_cast<float>(std::abs(phi.values()[i])), i);
-  std::sort(nodes.begin(), nodes.end());
+    if (!has_value[i] && std::abs(phi.values()[i]) <= band)
+      keys.emplace_back(static_cast<float>(std::abs(phi.values()[i])), i);
+  std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> result;
-  result.reserve(nodes.size());
-  for (const auto &[distance, node] : nodes)
+  result.reserve(keys.size());
+  for (const auto &[distance, node] : keys)
     result.push_back(node);
   return result;
 }
@@ -169,7 +178,8 @@ Extension<dim, n_components>::neighbours_with_values(const std::size_t node) con
 
 template <int dim, std::size_t n_components>
 bool
-Extension<dim, n_components>::set_gradient_of_known(const std::size_t node, const unsigned int axis)
+Extension<dim, n_components>::difference_of_known(const std::size_t node, const unsigned int axis,
+                                                  Gradient &result) const
 {
   const auto at = position(node);
   const auto known
@@ -180,33 +190,58 @@ Extension<dim, n_components>::set_gradient_of_known(const std::size_t node, cons
   for (std::size_t c = 0; c < n_components; ++c)
     {
       const auto value = [&](const int k) { return v[c][node + k * stride[axis]]; };
-      gradients[dim * node + axis][c]
-        = known(1) && known(-1) ? 0.5 * (value(1) - value(-1))
-          : known(2 * side)     ? 0.5 * side * (4 * value(side) - value(2 * side) - 3 * value(0))
-                                : side * (value(side) - value(0));
+      result[c]        = known(1) && known(-1) ? 0.5 * (value(1) - value(-1))
+                         : known(2 * side)
+                           ? 0.5 * side * (4 * value(side) - value(2 * side) - 3 * value(0))
+                           : side * (value(side) - value(0));
     }
   return true;
+}
+
+template <int dim, std::size_t n_components>
+typename Extension<dim, n_components>::Gradient
+Extension<dim, n_components>::gradient_of_known(const std::size_t  node,
+                                                const unsigned int axis) const
+{
+  Gradient result{};
+  if (difference_of_known(node, axis, result))
+    return result;
+  const Stencil around = neighbours_with_values(node);
+  unsigned int  n      = 0;
+  for (unsigned int i = 0; i < around.n; ++i)
+    {
+      Gradient neighbour;
+      if (!difference_of_known(node + around.differences[i].step, axis, neighbour))
+        continue;
+      ++n;
+      for (std::size_t c = 0; c < n_components; ++c)
+        result[c] += (neighbour[c] - result[c]) / n;
+    }
+  return result;
 }
 
 template <int dim, std::size_t n_components>
 void
 Extension<dim, n_components>::set_gradients_of_known()
 {
-  gradients.resize(dim * has_value.size(), Gradient{});
-  std::vector<std::pair<std::size_t, unsigned int>> missing;
-  for (std::size_t node = 0; node < has_value.size(); ++node)
-    for (unsigned int d = 0; d < dim; ++d)
-      if (has_value[node] && !set_gradient_of_known(node, d))
-        missing.emplace_back(node, d);
-
-  // A node that sticks out takes the mean of its known neighbours.
-  for (const auto &[node, axis] : missing)
+  constexpr std::uint32_t none = ~std::uint32_t(0);
+  gradients_at.assign(has_value.size(), none);
+  gradients.resize(dim * nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    gradients_at[nodes[i]] = dim * i;
+  for (const std::uint32_t node : nodes)
     {
-      const Stencil around = neighbours_with_values(node);
-      for (unsigned int i = 0; i < around.n; ++i)
-        for (std::size_t c = 0; c < n_components; ++c)
-          gradients[dim * node + axis][c]
-            += gradients[dim * (node + around.differences[i].step) + axis][c] / around.n;
+      const auto at = position(node);
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const int k : {-2, -1, 1, 2})
+          {
+            const std::size_t reached = node + k * stride[d];
+            if (!exists(at, d, k) || !has_value[reached] || gradients_at[reached] != none)
+              continue;
+            gradients_at[reached] = gradients.size();
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              gradients.push_back(gradient_of_known(reached, axis));
+          }
     }
 }
 
@@ -233,10 +268,10 @@ Extension<dim, n_components>::set(const std::size_t node, const Stencil &stencil
   has_value[node] = 1;
   if (!linear)
     return;
+  Gradient *const own = gradients.data() + gradients_at[node];
   for (unsigned int d = 0; d < dim; ++d)
     for (std::size_t c = 0; c < n_components; ++c)
-      gradients[dim * node + d][c]
-        = mean([&](const std::size_t i) { return gradients[dim * i + d][c]; });
+      own[d][c] = mean([&](const std::size_t i) { return gradients[gradients_at[i] + d][c]; });
   // v - G x instead of v: a neighbour one step away in the direction of axis d, side s, counts with
   // v_1 - s G_d, and (4 v_1 - v_2)/3 with -2/3 s G_d.
   for (unsigned int i = 0; i < stencil.n; ++i)
@@ -244,7 +279,7 @@ Extension<dim, n_components>::set(const std::size_t node, const Stencil &stencil
       const Difference &d     = stencil.differences[i];
       const double      shift = (d.step > 0 ? -1 : 1) * (d.second_order ? 2. / 3. : 1.);
       for (std::size_t c = 0; c < n_components; ++c)
-        v[c][node] += d.weight / sum * shift * gradients[dim * node + d.axis][c];
+        v[c][node] += d.weight / sum * shift * own[d.axis][c];
     }
 }
 
@@ -254,7 +289,7 @@ Extension<dim, n_components>::run()
 {
   ExtensionCount             count{0, 0};
   std::vector<std::uint32_t> open;
-  for (const std::uint32_t node : order())
+  for (const std::uint32_t node : nodes)
     {
       const Stencil differences = stencil(node);
       if (differences.n > 0)
@@ -275,23 +310,26 @@ Extension<dim, n_components>::run()
           else
             still_open.push_back(node);
         }
+      if (still_open.size() == open.size()) // apart from all known nodes
+        break;
       open.swap(still_open);
     }
+  count.n_extended -= open.size();
   return count;
 }
 } // namespace
 
 template <int dim, std::size_t n_components>
 ExtensionCount
-extend(const Lattice<dim> &phi, const std::vector<char> &known, const Extrapolation extrapolation,
+extend(const Lattice<dim> &phi, const std::vector<char> &known, const ExtensionOptions &options,
        std::array<std::vector<double>, n_components> &v)
 {
-  return Extension<dim, n_components>(phi, known, extrapolation, v).run();
+  return Extension<dim, n_components>(phi, known, options, v).run();
 }
 
-#define INSTANTIATE(dim, n)                                                                      \
-  template ExtensionCount extend(const Lattice<dim> &, const std::vector<char> &, Extrapolation, \
-                                 std::array<std::vector<double>, n> &);
+#define INSTANTIATE(dim, n)                                                       \
+  template ExtensionCount extend(const Lattice<dim> &, const std::vector<char> &, \
+                                 const ExtensionOptions &, std::array<std::vector<double>, n> &);
 
 INSTANTIATE(2, 1)
 INSTANTIATE(2, 2)

@@ -129,9 +129,10 @@ class March
 public:
   March(const Lattice<dim> &lattice, const std::vector<char> &known_nodes);
 
-  void run();
+  // Up to a distance of `band` spacings.
+  void run(double band);
 
-  // Puts the distances into the lattice with the signs of its values.
+  // Puts the known distances into the lattice with the signs of its values.
   void copy_to(Lattice<dim> &lattice) const;
 
 private:
@@ -231,7 +232,7 @@ March<dim>::update_neighbours(const std::uint32_t node)
 
 template <int dim>
 void
-March<dim>::run()
+March<dim>::run(const double band)
 {
   for_each_line([&](const std::size_t, const std::size_t first) {
     for (std::size_t node = first; node < first + n_nodes[0]; ++node)
@@ -242,7 +243,7 @@ March<dim>::run()
     {
       const std::uint32_t node  = queue.pop();
       const double        value = -distances[node];
-      if (value <= 0) // known by an entry in an earlier bucket
+      if (value <= 0 || value > band) // known by an entry in an earlier bucket, or too far
         continue;
       if (BucketQueue::bucket(value) > queue.current)
         {
@@ -261,10 +262,11 @@ March<dim>::copy_to(Lattice<dim> &lattice) const
   std::vector<double> &values = lattice.values();
   for_each_line([&](const std::size_t to, const std::size_t from) {
     for (int i = 0; i < n_nodes[0]; ++i)
-      {
-        const double distance = distances[from + i] * lattice.spacing();
-        values[to + i]        = values[to + i] < 0 ? -distance : distance;
-      }
+      if (distances[from + i] >= 0)
+        {
+          const double distance = distances[from + i] * lattice.spacing();
+          values[to + i]        = values[to + i] < 0 ? -distance : distance;
+        }
   });
 }
 } // namespace
@@ -273,19 +275,18 @@ template <int dim>
 bool
 has_contour(const Lattice<dim> &lattice)
 {
-  const auto is_negative = [](const double value) { return value < 0; };
-  const auto n_negative
-    = std::count_if(lattice.values().begin(), lattice.values().end(), is_negative);
-  return n_negative > 0 && n_negative < static_cast<std::ptrdiff_t>(lattice.values().size());
+  const std::vector<double> &values = lattice.values();
+  return std::any_of(values.begin(), values.end(),
+                     [&](const double value) { return (value < 0) != (values[0] < 0); });
 }
 
 template <int dim>
 void
-march_distances(Lattice<dim> &lattice, const std::vector<char> &known)
+march_distances(Lattice<dim> &lattice, const std::vector<char> &known, const double band)
 {
   AssertDimension(known.size(), lattice.values().size());
   March<dim> march(lattice, known);
-  march.run();
+  march.run(band);
   march.copy_to(lattice);
 }
 
@@ -295,7 +296,7 @@ compute_distances(Lattice<dim> &lattice)
 {
   AssertThrow(has_contour(lattice),
               ExcMessage("The level set has no zero contour on its lattice."));
-  const std::vector<std::size_t> near = nodes_near_contour(lattice);
+  const std::vector<std::size_t> near = nodes_at_cut_edges(lattice);
   ContourDistance<dim>           contour_distance(lattice);
   std::vector<double>            distances;
   distances.reserve(near.size());
@@ -315,7 +316,7 @@ compute_distances(Lattice<dim> &lattice)
 #define INSTANTIATE(dim)                           \
   template bool has_contour(const Lattice<dim> &); \
   template void compute_distances(Lattice<dim> &); \
-  template void march_distances(Lattice<dim> &, const std::vector<char> &);
+  template void march_distances(Lattice<dim> &, const std::vector<char> &, double);
 
 INSTANTIATE(2)
 INSTANTIATE(3)

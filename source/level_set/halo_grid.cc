@@ -150,8 +150,10 @@ all_nodes(const HaloGrid<dim> &grid)
 template <int dim>
 NodeSet<dim>
 nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,
-                   const double half_width)
+                   const double half_width, const bool whole_blocks)
 {
+  if (!std::isfinite(half_width))
+    return all_nodes(grid);
   constexpr int block = 8; // nodes, a register of the widest instructions
   NodeSet<dim>  result{grid, {}, 0, false};
   const int     nx = grid.n_nodes[0];
@@ -159,11 +161,16 @@ nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,
     grid, [&](const std::array<int, 2> &row, const std::size_t node, const std::size_t with_halo) {
       const std::size_t n_before = result.runs.size();
       int               begin = 0, end = 0; // of the open run
-      const auto        close = [&]() {
+      const auto is_near = [&](const int i) { return std::abs(phi[node + i]) <= half_width; };
+      const auto close   = [&]() {
         if (end > begin)
           {
-            result.runs.push_back(
-                     {node + begin, with_halo + begin, result.n_nodes, std::min(end, nx) - begin});
+            end = std::min(end, nx);
+            while (!whole_blocks && !is_near(begin))
+              ++begin;
+            while (!whole_blocks && !is_near(end - 1))
+              --end;
+            result.runs.push_back({node + begin, with_halo + begin, result.n_nodes, end - begin});
             result.n_nodes += result.runs.back().n;
           }
       };
@@ -171,7 +178,7 @@ nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,
         {
           bool near = false;
           for (int l = i; l < std::min(i + block, nx); ++l)
-            near |= std::abs(phi[node + l]) <= half_width;
+            near |= is_near(l);
           if (!near)
             continue;
           if (i > end)
@@ -199,6 +206,8 @@ template struct NodeSet<2>;
 template struct NodeSet<3>;
 template NodeSet<2> all_nodes(const HaloGrid<2> &);
 template NodeSet<3> all_nodes(const HaloGrid<3> &);
-template NodeSet<2> nodes_near_contour(const HaloGrid<2> &, const std::vector<double> &, double);
-template NodeSet<3> nodes_near_contour(const HaloGrid<3> &, const std::vector<double> &, double);
+template NodeSet<2> nodes_near_contour(const HaloGrid<2> &, const std::vector<double> &, double,
+                                       bool);
+template NodeSet<3> nodes_near_contour(const HaloGrid<3> &, const std::vector<double> &, double,
+                                       bool);
 } // namespace scree

@@ -1,11 +1,11 @@
 #include <scree/level_set/closest_point.h>
 #include <scree/level_set/contour_distance.h>
 #include <scree/level_set/fast_marching.h>
+#include <scree/level_set/halo_grid.h>
 #include <scree/level_set/reinitialisation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -13,41 +13,10 @@ using namespace dealii;
 
 namespace
 {
-// Joins the bits of every node with those of its neighbours along one axis.
-void
-dilate(std::vector<unsigned char> &bits, const std::size_t stride, const std::size_t n_nodes)
-{
-  const std::vector<unsigned char> before = bits;
-  const std::size_t                block  = stride * n_nodes;
-  for (std::size_t start = 0; start < bits.size(); start += block)
-    for (std::size_t i = start; i < start + block - stride; ++i)
-      {
-        bits[i] |= before[i + stride];
-        bits[i + stride] |= before[i];
-      }
-}
-
 constexpr signed char full_weight = 6;
 constexpr int         kink_reach  = 2; // nodes
-constexpr int         band_width  = 2; // nodes beyond those of cut cells
+constexpr int         strip_width = 2; // nodes beyond those of cut cells
 constexpr double      near_reach  = 4; // spacings; up to there values may stay when others do not
-
-// Raises the weights to those of the neighbours along one axis less 1.
-void
-spread(std::vector<signed char> &weight, const std::size_t stride, const std::size_t n_nodes)
-{
-  const std::size_t block = stride * n_nodes;
-  const auto        raise = [&](const std::size_t i, const std::size_t j) {
-    weight[i] = std::max(weight[i], static_cast<signed char>(weight[j] - 1));
-  };
-  for (std::size_t start = 0; start < weight.size(); start += block)
-    {
-      for (std::size_t i = start + stride; i < start + block; ++i)
-        raise(i, i - stride);
-      for (std::size_t i = start + block - stride; i-- > start;)
-        raise(i, i + stride);
-    }
-}
 
 template <int dim>
 class Reinitialisation
@@ -60,25 +29,37 @@ public:
 private:
   using Index = typename Lattice<dim>::Index;
 
-  // Writes what slopes deviate into `count`, and the weights of the rebuilt values: 1 up to 2
-  // steps from nodes beyond the tolerance, falling to 0 over 6 more. The band has one weight.
+  void find_strip();
+
+  // Writes what slopes deviate into `count`, and the weights of nodes beyond the tolerance. The
+  // strip has one weight.
   void measure_slopes();
 
-  void rebuild_band();
+  // The weights of the rebuilt values: 1 up to 2 steps from nodes beyond the tolerance, falling to
+  // 0 over 6 more.
+  void spread_weights();
+
+  void rebuild_strip();
 
   void rebuild_rest();
 
-  // Nodes of the band whose factors are unknown (0) take those of the others.
+  // Nodes of the strip near kinks, whose factors are unknown (0), take those of the others.
   void spread_factors(std::vector<double> &factors) const;
 
-  double contour_motion(const std::vector<double> &new_values) const;
+  // The points of the contour at its cuts of edges.
+  std::vector<Point<dim>> contour_points() const;
+
+  // Calls `f(node, with_halo)` for all nodes up to the width of the band.
+  template <typename F>
+  void for_each_node(const F &f) const;
 
   Lattice<dim>                  &lattice;
   const ReinitialisationOptions &options;
   std::array<std::size_t, dim>   stride;
-  std::vector<unsigned char>     in_band;
-  std::vector<signed char>       weight; // times 6
-  std::vector<std::size_t>       band;
+  NodeSet<dim>                   nodes;    // that are watched
+  std::vector<unsigned char>     in_strip; // with halo
+  std::vector<signed char>       weight;   // with halo, times 6
+  std::vector<std::size_t>       strip;    // in order
   ContourDistance<dim>           contour_distance;
   ReinitialisationCount          count{0, 0, 0, 0, 0};
 };
@@ -88,27 +69,55 @@ Reinitialisation<dim>::Reinitialisation(Lattice<dim>                  &lattice,
                                         const ReinitialisationOptions &options)
     : lattice(lattice)
     , options(options)
+    , nodes(nodes_near_contour(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()},
+                               lattice.values(), options.band * lattice.spacing()))
     , contour_distance(lattice)
 {
-  // Where both signs are within n + 1 nodes there is a cut cell within n.
-  const std::vector<double> &values = lattice.values();
-  in_band.resize(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    in_band[i] = values[i] < 0 ? 1 : 2;
+  Assert(options.band >= 2 * near_reach, ExcMessage("A band of at least 8 spacings."));
   std::size_t step = 1;
   for (unsigned int d = 0; d < dim; ++d)
     {
       stride[d] = step;
-      for (unsigned int pass = 0; pass < band_width + 1; ++pass)
-        dilate(in_band, step, lattice.n_nodes()[d]);
       step *= lattice.n_nodes()[d];
     }
-  for (std::size_t i = 0; i < values.size(); ++i)
+  find_strip();
+}
+
+template <int dim>
+template <typename F>
+void
+Reinitialisation<dim>::for_each_node(const F &f) const
+{
+  for (const NodeRun &run : nodes.runs)
+    for (int i = 0; i < run.n; ++i)
+      f(run.node + i, run.with_halo + i);
+}
+
+template <int dim>
+void
+Reinitialisation<dim>::find_strip()
+{
+  // Where both signs are within n + 1 nodes there is a cut cell within n.
+  constexpr int width = strip_width + 1;
+  static_assert(width <= HaloGrid<dim>::width, "The halo is too narrow.");
+  in_strip.assign(nodes.grid.size(), 0);
+  for_each_node([&](const std::size_t node, const std::size_t at) {
+    in_strip[at] = lattice.values()[node] < 0 ? 1 : 2;
+  });
+  for (unsigned int d = 0; d < dim; ++d)
     {
-      in_band[i] = in_band[i] == 3;
-      if (in_band[i])
-        band.push_back(i);
+      const std::vector<unsigned char> signs = in_strip;
+      const std::ptrdiff_t             step  = nodes.grid.stride(d);
+      for (const NodeRun &run : nodes.runs)
+        for (int k = -width; k <= width; ++k)
+          for (int i = 0; i < run.n; ++i)
+            in_strip[run.with_halo + i] |= signs[run.with_halo + i + k * step];
     }
+  for_each_node([&](const std::size_t node, const std::size_t at) {
+    in_strip[at] = in_strip[at] == 3;
+    if (in_strip[at])
+      strip.push_back(node);
+  });
 }
 
 template <int dim>
@@ -117,50 +126,83 @@ Reinitialisation<dim>::measure_slopes()
 {
   const double *values = lattice.values().data();
   const Index  &n      = lattice.n_nodes();
-  weight.assign(lattice.values().size(), 0);
-  for (int k = dim == 3; k < (dim == 3 ? n[dim - 1] - 1 : 1); ++k)
-    for (int j = 1; j < n[1] - 1; ++j)
-      for (int i = 1; i < n[0] - 1; ++i)
+  weight.assign(nodes.grid.size(), 0);
+  for (const NodeRun &run : nodes.runs)
+    {
+      bool at_end = false;
+      for (unsigned int d = 1; d < dim; ++d)
         {
-          const std::size_t at     = i + j * stride[1] + (dim == 3 ? k * stride[dim - 1] : 0);
+          const int row = run.node / stride[d] % n[d];
+          at_end |= row == 0 || row == n[d] - 1;
+        }
+      if (at_end)
+        continue;
+      const int x = run.node % n[0];
+      for (int i = std::max(1 - x, 0); i < std::min(n[0] - 1 - x, run.n); ++i)
+        {
+          const std::size_t node   = run.node + i;
           double            square = 0;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              const double difference = values[at + stride[d]] - values[at - stride[d]];
+              const double difference = values[node + stride[d]] - values[node - stride[d]];
               square += difference * difference;
             }
           const double deviation = std::abs(std::sqrt(square) / (2 * lattice.spacing()) - 1);
-          double      &largest   = in_band[at] ? count.deviation_near : count.deviation_far;
+          const bool   is_near   = in_strip[run.with_halo + i];
+          double      &largest   = is_near ? count.deviation_near : count.deviation_far;
           if (deviation > options.tolerance)
             {
-              if (contour_distance.kink_near(lattice.index(at), kink_reach))
+              if (contour_distance.kink_near(lattice.index(node), kink_reach))
                 continue;
-              weight[at] = full_weight + 2;
+              weight[run.with_halo + i] = full_weight + 2;
             }
           largest = std::max(largest, deviation);
         }
-  if (count.deviation_near > options.tolerance)
-    for (const std::size_t i : band)
-      weight[i] = full_weight + 2;
+    }
+}
+
+template <int dim>
+void
+Reinitialisation<dim>::spread_weights()
+{
+  if (count.n_changed_near > 0)
+    for_each_node([&](const std::size_t, const std::size_t at) {
+      if (in_strip[at])
+        weight[at] = full_weight + 2;
+    });
+  // to neighbours less 1, axis by axis
+  const auto raise = [&](const std::size_t at, const std::size_t neighbour) {
+    weight[at] = std::max(weight[at], static_cast<signed char>(weight[neighbour] - 1));
+  };
   for (unsigned int d = 0; d < dim; ++d)
-    spread(weight, stride[d], n[d]);
+    {
+      const std::size_t step = nodes.grid.stride(d);
+      for_each_node([&](const std::size_t, const std::size_t at) { raise(at, at - step); });
+      for (auto run = nodes.runs.rbegin(); run != nodes.runs.rend(); ++run)
+        for (int i = run->n - 1; i >= 0; --i)
+          raise(run->with_halo + i, run->with_halo + i + step);
+    }
 }
 
 template <int dim>
 void
 Reinitialisation<dim>::spread_factors(std::vector<double> &factors) const
 {
-  std::vector<std::size_t> open;
-  for (const std::size_t i : band)
-    if (factors[i] == 0)
-      open.push_back(i);
+  const auto factor_of = [&](const std::size_t node) {
+    const auto at = std::lower_bound(strip.begin(), strip.end(), node);
+    return at != strip.end() && *at == node ? factors[at - strip.begin()] : 0.;
+  };
+  std::vector<std::size_t> open; // positions in the strip
+  for (std::size_t b = 0; b < strip.size(); ++b)
+    if (factors[b] == 0)
+      open.push_back(b);
   while (!open.empty())
     {
       std::vector<std::pair<std::size_t, double>> found;
       std::vector<std::size_t>                    still_open;
-      for (const std::size_t i : open)
+      for (const std::size_t b : open)
         {
-          const Index  node = lattice.index(i);
+          const Index  node = lattice.index(strip[b]);
           double       sum  = 0;
           unsigned int n    = 0;
           for (unsigned int d = 0; d < dim; ++d)
@@ -170,33 +212,31 @@ Reinitialisation<dim>::spread_factors(std::vector<double> &factors) const
                 neighbour[d] += side;
                 if (!lattice.contains(neighbour))
                   continue;
-                const double factor = factors[lattice.offset(neighbour)];
+                const double factor = factor_of(lattice.offset(neighbour));
                 sum += factor;
                 n += factor > 0;
               }
           if (n > 0)
-            found.emplace_back(i, sum / n);
+            found.emplace_back(b, sum / n);
           else
-            still_open.push_back(i);
+            still_open.push_back(b);
         }
       if (found.empty())
-        for (const std::size_t i : still_open)
-          found.emplace_back(i, 1.);
-      for (const auto &[i, factor] : found)
-        factors[i] = factor;
+        for (const std::size_t b : still_open)
+          found.emplace_back(b, 1.);
+      for (const auto &[b, factor] : found)
+        factors[b] = factor;
       open.swap(still_open);
     }
 }
 
 template <int dim>
-double
-Reinitialisation<dim>::contour_motion(const std::vector<double> &new_values) const
+std::vector<Point<dim>>
+Reinitialisation<dim>::contour_points() const
 {
-  Lattice<dim> moved   = lattice;
-  moved.values()       = new_values;
-  double        result = 0;
-  const double *values = lattice.values().data();
-  for (const std::size_t i : band)
+  std::vector<Point<dim>> result;
+  const double           *values = lattice.values().data();
+  for (const std::size_t i : strip)
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Index node = lattice.index(i);
@@ -208,58 +248,66 @@ Reinitialisation<dim>::contour_motion(const std::vector<double> &new_values) con
         Point<dim> cut = lattice.node(node);
         cut[d] += a / (a - b) * lattice.spacing();
         const ClosestPoint<dim> foot = project(lattice, cut, options.degree);
-        if (!foot.converged)
-          continue;
-        const auto [value, gradient] = moved.value_and_gradient(foot.point, options.degree);
-        result                       = std::max(result, std::abs(value) / gradient.norm());
+        if (foot.converged)
+          result.push_back(foot.point);
       }
   return result;
 }
 
 template <int dim>
 void
-Reinitialisation<dim>::rebuild_band()
+Reinitialisation<dim>::rebuild_strip()
 {
-  std::vector<double>      values = lattice.values(), factors(values.size(), 0.);
-  std::vector<std::size_t> scaled;
-  for (const std::size_t i : band)
+  std::vector<double> &values = lattice.values();
+  std::vector<double>  new_values(strip.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double>  factors(strip.size(), 0.);
+  for (std::size_t b = 0; b < strip.size(); ++b)
     {
-      const double distance = contour_distance.kink_near(lattice.index(i), kink_reach)
-                                ? std::numeric_limits<double>::infinity()
-                                : contour_distance(i);
+      if (contour_distance.kink_near(lattice.index(strip[b]), kink_reach))
+        continue;
+      const double distance = contour_distance(strip[b]);
       if (!std::isfinite(distance))
-        scaled.push_back(i);
-      else
-        {
-          values[i] = distance;
-          // a ratio of two small numbers says nothing about the slope
-          if (std::abs(distance) > 0.05 * lattice.spacing())
-            factors[i] = distance / lattice.values()[i];
-        }
+        continue;
+      new_values[b] = distance;
+      // a ratio of two small numbers says nothing about the slope
+      if (std::abs(distance) > 0.05 * lattice.spacing())
+        factors[b] = distance / values[strip[b]];
     }
   spread_factors(factors);
-  for (const std::size_t i : scaled)
-    values[i] *= factors[i];
-  count.n_changed_near = band.size();
-  count.contour_motion = contour_motion(values);
-  lattice.values().swap(values);
+  const std::vector<Point<dim>> contour = contour_points();
+  for (std::size_t b = 0; b < strip.size(); ++b)
+    values[strip[b]] = std::isfinite(new_values[b]) ? new_values[b] : values[strip[b]] * factors[b];
+  count.n_changed_near = strip.size();
+  for (const Point<dim> &x : contour)
+    {
+      const auto [value, gradient] = lattice.value_and_gradient(x, options.degree);
+      count.contour_motion = std::max(count.contour_motion, std::abs(value) / gradient.norm());
+    }
 }
 
 template <int dim>
 void
 Reinitialisation<dim>::rebuild_rest()
 {
-  const std::vector<double> before = lattice.values();
-  march_distances(lattice, std::vector<char>(in_band.begin(), in_band.end()));
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (!in_band[i])
-      {
-        double      &value  = lattice.values()[i];
-        const double remote = std::abs(value) / (near_reach * lattice.spacing()) - 1;
-        const double w      = std::clamp(std::max(remote, double(weight[i]) / full_weight), 0., 1.);
-        value               = before[i] + (value - before[i]) * w;
-        count.n_changed_far += w > 0;
-      }
+  spread_weights();
+  std::vector<double> before;
+  nodes.pack(lattice.values(), before);
+  std::vector<char> known(lattice.values().size(), 0);
+  for (const std::size_t i : strip)
+    known[i] = 1;
+  march_distances(lattice, known, options.band);
+  for (const NodeRun &run : nodes.runs)
+    for (int i = 0; i < run.n; ++i)
+      if (!in_strip[run.with_halo + i])
+        {
+          double      &value  = lattice.values()[run.node + i];
+          const double old    = before[run.packed + i];
+          const double remote = std::abs(value) / (near_reach * lattice.spacing()) - 1;
+          const double full   = double(weight[run.with_halo + i]) / full_weight;
+          const double w      = std::clamp(std::max(remote, full), 0., 1.);
+          value               = old + (value - old) * w;
+          count.n_changed_far += w > 0;
+        }
 }
 
 template <int dim>
@@ -269,7 +317,7 @@ Reinitialisation<dim>::run()
   measure_slopes();
   const bool near = count.deviation_near > options.tolerance;
   if (near)
-    rebuild_band();
+    rebuild_strip();
   if (near || count.deviation_far > options.tolerance)
     rebuild_rest();
   return count;

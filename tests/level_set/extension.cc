@@ -56,7 +56,7 @@ struct Ball
     for (unsigned int d = 0; d < dim; ++d)
       for (std::size_t i = 0; i < known.size(); ++i)
         v[d].push_back(known[i] ? f(node(i)) + d : std::numeric_limits<double>::quiet_NaN());
-    const ExtensionCount count = extend(phi, known, extrapolation, v);
+    const ExtensionCount count = extend(phi, known, {extrapolation}, v);
     EXPECT_EQ(count.n_upstream, 0u);
     return v;
   }
@@ -195,7 +195,7 @@ TEST(Extension, ReachesNodesBehindAMinimum)
   Values<2> v;
   for (auto &component : v)
     component.assign(ball.known.size(), 2.);
-  const ExtensionCount count = extend(ball.phi, ball.known, Extrapolation::constant, v);
+  const ExtensionCount count = extend(ball.phi, ball.known, {Extrapolation::constant}, v);
   EXPECT_EQ(count.n_upstream, 1u);
   for (const double value : v[0])
     EXPECT_NEAR(value, 2, 1e-14);
@@ -208,8 +208,7 @@ TEST(Extension, NeedsValues)
   for (auto &component : v)
     component.assign(ball.known.size(), 0.);
   deal_II_exceptions::disable_abort_on_exception();
-  EXPECT_THROW(extend(ball.phi, std::vector<char>(ball.known.size(), 0), Extrapolation::linear, v),
-               ExceptionBase);
+  EXPECT_THROW(extend(ball.phi, std::vector<char>(ball.known.size(), 0), {}, v), ExceptionBase);
 }
 
 template <int dim>
@@ -223,7 +222,7 @@ print_rate(const int n)
       for (auto &component : v)
         component.assign(ball.known.size(), 1.);
       const std::clock_t   start = std::clock();
-      const ExtensionCount count = extend(ball.phi, ball.known, extrapolation, v);
+      const ExtensionCount count = extend(ball.phi, ball.known, {extrapolation}, v);
       const double         time  = double(std::clock() - start) / CLOCKS_PER_SEC;
       std::cout << dim << "D " << (extrapolation == Extrapolation::linear ? "linear" : "constant")
                 << ": " << count.n_extended / time * 1e-6 << " million nodes with " << dim

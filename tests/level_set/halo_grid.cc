@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "shapes.h"
+
 namespace scree
 {
 namespace
@@ -18,22 +20,6 @@ ball(const Point<dim> &x)
   Point<dim> centre;
   centre[0] = 0.05;
   return (x - centre).norm() - 0.5;
-}
-
-// A ball of radius 0.5 in [-1, 1]^dim with 2 n spacings.
-template <int dim>
-Lattice<dim>
-ball_lattice(const int n)
-{
-  LatticeFrame<dim> frame;
-  frame.spacing = 1. / n;
-  std::array<int, dim> lower, count;
-  lower.fill(-n);
-  count.fill(2 * n + 1);
-  Lattice<dim> lattice(frame, lower, count);
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    lattice.values()[i] = ball<dim>(lattice.node(lattice.index(i)));
-  return lattice;
 }
 
 template <int dim>
@@ -72,7 +58,7 @@ template <int dim>
 void
 check_members(const int n, const double half_width, const bool reaches_ends)
 {
-  const auto          lattice = ball_lattice<dim>(n);
+  const auto          lattice = sampled<dim>(1. / n, 1, ball<dim>);
   const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
   const auto         &phi       = lattice.values();
   const NodeSet<dim>  nodes     = nodes_near_contour<dim>(grid, phi, half_width);
@@ -107,7 +93,7 @@ template <int dim>
 void
 check_band(const int n, const IncrementMotion motion, const double amplitude, const int gap)
 {
-  const auto      start = ball_lattice<dim>(n);
+  const auto      start = sampled<dim>(1. / n, 1, ball<dim>);
   auto            all = start, near = start;
   const auto      du = waves<dim>(start, amplitude * start.spacing());
   AdvectionScheme scheme;
@@ -153,7 +139,7 @@ TEST(NarrowBand, MovesTheContourLikeTheWholeLattice)
 {
   for (const auto motion : {IncrementMotion::map_velocity, IncrementMotion::semi_lagrangian})
     {
-      auto            all = ball_lattice<2>(100), near = all;
+      auto            all = sampled<2>(1. / 100, 1, ball<2>), near = all;
       const auto      du = waves<2>(all, 0.3 * all.spacing());
       AdvectionScheme scheme;
       for (int step = 0; step < 10; ++step)

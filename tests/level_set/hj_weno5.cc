@@ -4,43 +4,13 @@
 
 #include <cmath>
 
+#include "shapes.h"
+
 namespace scree
 {
 namespace
 {
 using namespace dealii;
-
-// A lattice over [-1, 1]^dim with 2 n spacings.
-template <int dim, typename F>
-Lattice<dim>
-sampled(const int n, const F &f)
-{
-  LatticeFrame<dim> frame;
-  frame.spacing = 1. / n;
-  std::array<int, dim> lower, count;
-  lower.fill(-n);
-  count.fill(2 * n + 1);
-  Lattice<dim> lattice(frame, lower, count);
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    lattice.values()[i] = f(lattice.node(lattice.index(i)));
-  return lattice;
-}
-
-template <int dim, typename F>
-NodalVectors<dim>
-vectors(const Lattice<dim> &lattice, const F &f)
-{
-  NodalVectors<dim> result;
-  for (auto &component : result)
-    component.resize(lattice.values().size());
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    {
-      const Tensor<1, dim> v = f(lattice.node(lattice.index(i)));
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d][i] = v[d];
-    }
-  return result;
-}
 
 template <int dim, typename F>
 double
@@ -79,7 +49,7 @@ template <int dim, typename F, typename V>
 Lattice<dim>
 right_hand_side(const int n, const Upwinding upwinding, const F &phi, const V &velocity)
 {
-  auto                lattice = sampled<dim>(n, phi);
+  auto                lattice = sampled<dim>(1. / n, 1, phi);
   const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
   const NodeSet<dim>  nodes = all_nodes(grid);
   std::vector<double> from(grid.size()), to(grid.size()), moved(lattice.values().size());
@@ -218,7 +188,7 @@ bump_error(const int n)
 {
   const auto bump
     = [](const Point<2> &x) { return std::exp(-25 * (x - Point<2>(0.35, 0.1)).norm_square()); };
-  auto            lattice = sampled<2>(n, bump);
+  auto            lattice = sampled<2>(1. / n, 1, bump);
   AdvectionScheme scheme;
   scheme.cfl = 0.5 * std::pow(20. / n, 2. / 3.);
   advect<2>(lattice, vectors<2>(lattice, spin<2>), numbers::PI / 2, scheme);
@@ -249,7 +219,7 @@ double
 time_error(const unsigned int order, const double cfl)
 {
   const auto      slope   = [](const Point<dim> &x) { return 0.7 * x[0] - 0.4 * x[1] + 0.1; };
-  auto            lattice = sampled<dim>(4, slope);
+  auto            lattice = sampled<dim>(0.25, 1, slope);
   const auto      field   = vectors<dim>(lattice, spin<dim>);
   AdvectionScheme scheme;
   scheme.time_order = order;
@@ -281,7 +251,7 @@ TEST(TvdRungeKutta, HasItsOrderInTime)
 
 TEST(TvdRungeKutta, KeepsTheCflBound)
 {
-  auto         lattice = sampled<2>(10, wave<2>);
+  auto         lattice = sampled<2>(0.1, 1, wave<2>);
   const double speed   = 2; // |v_x| + |v_y| at the corners
   const auto   field   = vectors<2>(lattice, spin<2>);
   EXPECT_EQ(advect<2>(lattice, field, 1.).n_steps, std::ceil(speed / (0.5 * 0.1)));

@@ -6,7 +6,7 @@ namespace scree
 {
 /** The nodes with a cut edge and their neighbours along the axes, by their offset, in order. */
 template <int dim>
-std::vector<std::size_t> nodes_near_contour(const Lattice<dim> &lattice);
+std::vector<std::size_t> nodes_at_cut_edges(const Lattice<dim> &lattice);
 
 /**
  * The distances of nodes next to the zero contour of any level-set function: to the closest point

@@ -2,6 +2,8 @@
 
 #include <scree/level_set/lattice.h>
 
+#include <limits>
+
 namespace scree
 {
 /** How nodal values are continued off a body. */
@@ -9,6 +11,18 @@ enum class Extrapolation
 {
   constant, // grad v . grad phi = 0
   linear    // values and gradients carried along
+};
+
+/** How far and how nodal values are continued. */
+struct ExtensionOptions
+{
+  Extrapolation extrapolation = Extrapolation::linear;
+  /**
+   * Half width in spacings of the narrow band: nodes with larger |phi| keep their values. For
+   * semi-Lagrangian advection in a band, that band plus 2 |du| and 2 spacings, as nodes that |du|
+   * beyond it move and interpolate du |du| further. Infinite: all nodes.
+   */
+  double band = std::numeric_limits<double>::infinity();
 };
 
 /** What an extension did. */
@@ -32,14 +46,15 @@ struct ExtensionCount
  * where only two nodes are known), or that of its neighbours across where it sticks out.
  *
  * Nodes without such neighbours (local minima of |phi|) take the mean of the neighbours with
- * values, after all others. Throws ExcMessage if no node is known.
+ * values, after all others; nodes of the band that none of this reaches keep their values. Throws
+ * ExcMessage if no node is known.
  *
  * @tparam n_components of v, e.g. dim
- * @param v  in: values at the known nodes; out: at all nodes; one array per component, in the order
- *           of the values of the lattice
+ * @param v  in: values at the known nodes; out: at the nodes of the band; one array per component,
+ * in the order of the values of the lattice
  */
 template <int dim, std::size_t n_components>
 ExtensionCount extend(const Lattice<dim> &phi, const std::vector<char> &known,
-                      Extrapolation                                  extrapolation,
+                      const ExtensionOptions                        &options,
                       std::array<std::vector<double>, n_components> &v);
 } // namespace scree

@@ -69,10 +69,10 @@ template <int dim>
 NodeSet<dim> all_nodes(const HaloGrid<dim> &grid);
 
 /**
- * The nodes with `|phi| <= half_width` (length, if phi is a distance), the runs extended to
- * multiples of 8 nodes.
+ * The nodes with `|phi| <= half_width` (length, if phi is a distance), all nodes if it is infinite.
+ * Runs consist of blocks of 8 nodes, unless their ends that are beyond are to be trimmed.
  */
 template <int dim>
 NodeSet<dim> nodes_near_contour(const HaloGrid<dim> &grid, const std::vector<double> &phi,
-                                double half_width);
+                                double half_width, bool whole_blocks = true);
 } // namespace scree
