@@ -188,6 +188,15 @@ assert_sizes(const Lattice<dim> &lattice, const NodalVectors<dim> &vectors)
   for (unsigned int d = 0; d < dim; ++d)
     AssertDimension(vectors[d].size(), lattice.values().size());
 }
+template <int dim>
+AdvectionCount
+advanced(Stepper<dim> &stepper, Lattice<dim> &lattice, const NodeSet<dim> &nodes,
+         const double duration)
+{
+  const unsigned int n_steps = stepper.run(duration);
+  stepper.store(lattice.values());
+  return {n_steps, 0, nodes.n_nodes};
+}
 } // namespace
 
 template <int dim>
@@ -209,10 +218,8 @@ advect(Lattice<dim> &lattice, const std::function<void(double, NodalVectors<dim>
       for (unsigned int d = 0; d < dim; ++d)
         nodes.pack(everywhere[d], v[d]);
     };
-  Stepper<dim>       stepper(lattice.values(), nodes, scheme, at_start, at_nodes);
-  const unsigned int n_steps = stepper.run(duration);
-  stepper.store(lattice.values());
-  return {n_steps, 0, nodes.n_nodes};
+  Stepper<dim> stepper(lattice.values(), nodes, scheme, at_start, at_nodes);
+  return advanced(stepper, lattice, nodes, duration);
 }
 
 template <int dim>
@@ -223,10 +230,8 @@ advect(Lattice<dim> &lattice, const NodalVectors<dim> &velocity, const double du
   assert_sizes<dim>(lattice, velocity);
   const NodeSet<dim> nodes = moving_nodes<dim>(lattice, velocity, duration, scheme.band);
   const typename Stepper<dim>::Velocity steady;
-  Stepper<dim>       stepper(lattice.values(), nodes, scheme, packed<dim>(nodes, velocity), steady);
-  const unsigned int n_steps = stepper.run(duration);
-  stepper.store(lattice.values());
-  return {n_steps, 0, nodes.n_nodes};
+  Stepper<dim> stepper(lattice.values(), nodes, scheme, packed<dim>(nodes, velocity), steady);
+  return advanced(stepper, lattice, nodes, duration);
 }
 
 template <int dim>
@@ -250,8 +255,7 @@ advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const Incre
             count.n_unconverged += map_velocity<dim>(nodes, du, tau, at_tau);
           };
       Stepper<dim> stepper(lattice.values(), nodes, scheme, v, velocity);
-      count.n_steps = stepper.run(1.);
-      stepper.store(lattice.values());
+      count.n_steps = advanced(stepper, lattice, nodes, 1.).n_steps;
       return count;
     }
 

@@ -130,8 +130,8 @@ CondensedSolver::add_solution(const std::vector<double> &E, const unsigned int b
   if (is_root)
     right.resize(right.size() + B->NumGlobalRows(), 0.);
   // The condensed right-hand side is -B K^{-1} r.
-  std::vector<double> y = mumps->condense(right);
-  std::string         problem;
+  std::vector<double> y           = mumps->condense(right);
+  bool                is_singular = false;
   if (is_root)
     {
       for (double &value : y)
@@ -142,10 +142,10 @@ CondensedSolver::add_solution(const std::vector<double> &E, const unsigned int b
         }
       catch (const dealii::ExceptionBase &)
         {
-          problem = "the condensed matrix is singular";
+          is_singular = true;
         }
     }
-  if (!dealii::Utilities::MPI::broadcast(communicator, problem).empty())
+  if (dealii::Utilities::MPI::broadcast(communicator, is_singular))
     throw LinearSolverFailure("the condensed matrix is singular");
   add_from_root(mumps->expand(y), *x.trilinos_vector()(0));
 }

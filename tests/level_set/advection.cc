@@ -24,16 +24,6 @@ all_nodes_of(const Lattice<dim> &lattice)
   return all_nodes(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()});
 }
 
-template <int dim>
-Point<dim>
-turned(const Point<dim> &x, const double angle)
-{
-  Point<dim> result = x;
-  result[0]         = std::cos(angle) * x[0] - std::sin(angle) * x[1];
-  result[1]         = std::sin(angle) * x[0] + std::cos(angle) * x[1];
-  return result;
-}
-
 // The body {phi < 0}, star-shaped about a centre, against another one: areas by rays.
 struct Comparison
 {

@@ -23,17 +23,6 @@ error(const Lattice<dim> &lattice, const F &exact)
   return result;
 }
 
-// x turned about the last axis
-template <int dim>
-Point<dim>
-turned(const Point<dim> &x, const double angle)
-{
-  Point<dim> result = x;
-  result[0]         = std::cos(angle) * x[0] - std::sin(angle) * x[1];
-  result[1]         = std::sin(angle) * x[0] + std::cos(angle) * x[1];
-  return result;
-}
-
 template <int dim>
 Tensor<1, dim>
 spin(const Point<dim> &x)

@@ -44,6 +44,17 @@ vectors(const Lattice<dim> &lattice, const F &f)
   return result;
 }
 
+// x turned in the plane of the first two axes.
+template <int dim>
+dealii::Point<dim>
+turned(const dealii::Point<dim> &x, const double angle)
+{
+  dealii::Point<dim> result = x;
+  result[0]                 = std::cos(angle) * x[0] - std::sin(angle) * x[1];
+  result[1]                 = std::sin(angle) * x[0] + std::cos(angle) * x[1];
+  return result;
+}
+
 // The vortex of LeVeque (SIAM J. Numer. Anal. 33, 1996) in the unit box, moved to [-1/2, 1/2]^2;
 // times cos(pi t / T) it returns everything to its place at t = T.
 inline dealii::Tensor<1, 2>
