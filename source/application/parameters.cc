@@ -65,6 +65,10 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection contact_section = root.subsection("Contact", "Laws between the bodies.");
   contact.declare(contact_section, body_names);
 
+  ParameterSection moving_section
+    = root.subsection("Moving geometry", "Whether bodies move through the grid.");
+  moving.declare(moving_section);
+
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
 

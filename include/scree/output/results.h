@@ -33,9 +33,11 @@ class Results
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  Results(const std::string &directory, const Fields<dim> &fields,
-          const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
+  Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes);
+
+  /** What the next results refer to; to be told whenever it was made anew. */
+  void set_discretization(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes);
 
   /** Names of the columns of history.csv, then those of probes.csv after the first. */
   std::vector<std::string> columns(const Equilibrium<dim>   &equilibrium,
@@ -71,11 +73,11 @@ private:
   unsigned int             body_index(const std::string &name) const;
 
   std::string                                 directory;
-  const Fields<dim>                          &fields;
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
-  BodyOutput<dim>                             body_output;
-  bool                                        is_first; //!< this process writes the tables
+  const Fields<dim>                          *fields = nullptr;
+  std::unique_ptr<BodyOutput<dim>>            body_output;
+  bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
   std::vector<double>                         history_row, probe_row; //!< the last ones
   std::vector<std::pair<double, std::string>> body_records, contact_records;
