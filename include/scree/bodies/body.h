@@ -38,7 +38,8 @@ std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &
 
 /**
  * A body: its level set (negative inside, nodal values on a lattice), its material and what acts on
- * it. The geometry is the initial one. A rigid body has no material but a motion.
+ * it. The geometry is the initial one unless `pose` says otherwise. A rigid body has no material
+ * but a motion.
  */
 template <int dim>
 struct Body
@@ -51,6 +52,8 @@ struct Body
   std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
   Expression<dim>                       body_force; //!< force per volume
   std::vector<BoundaryCondition<dim>>   conditions;
+  /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
+  typename RigidPose<dim>::Unknowns pose = {};
 
   bool is_rigid() const
   {
