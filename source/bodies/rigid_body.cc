@@ -258,6 +258,14 @@ RigidPose<dim>::displacement(const dealii::Point<dim> &X) const
 }
 
 template <int dim>
+dealii::Point<dim>
+RigidPose<dim>::initial_position(const dealii::Point<dim> &x) const
+{
+  const dealii::Tensor<1, dim> arm = x - centre - shift;
+  return x - shift + (product(transpose(R), arm) - arm);
+}
+
+template <int dim>
 std::array<dealii::Tensor<1, dim>, n_rigid_components<dim>>
 RigidPose<dim>::derivative(const dealii::Point<dim> &X) const
 {

@@ -82,14 +82,14 @@ contact_response(const ContactLaw law, const double friction_coefficient,
     return response;
 
   const dealii::Tensor<1, dim> &n       = kinematics.normal;
-  const double                  motion  = n * kinematics.jump;
-  const double                  gap     = kinematics.initial_gap + motion;
+  const double                  gap     = kinematics.initial_gap + n * kinematics.jump;
   const double                  old_gap = kinematics.initial_gap + n * kinematics.old_jump;
   if (law == ContactLaw::tied)
     {
-      response.pressure = -kinematics.eps_n * motion;
-      response.status   = ContactStatus::stick;
-      response.tangent  = kinematics.eps_n * outer_product(n, n);
+      response.pressure = kinematics.old_pressure
+                          - kinematics.eps_n * (n * (kinematics.jump - kinematics.old_jump));
+      response.status  = ContactStatus::stick;
+      response.tangent = kinematics.eps_n * outer_product(n, n);
       add_friction(unlimited, 0., kinematics, {}, response);
       return response;
     }

@@ -2,8 +2,6 @@
 #include <scree/contact/contact_points.h>
 #include <scree/level_set/closest_point.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -39,9 +37,10 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
-  find_points(fields, level_set_nodes, bodies, shift);
+  contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift);
   find_stencils(fields, bodies);
   contact_jumps.resize(contact_points.size());
+  contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
 }
 
@@ -61,8 +60,9 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
           continue;
         if (partner_of_body.emplace(b, rigid_partners.size()).second)
           {
+            const RigidPose<dim> start(*body.rigid, body.pose);
             rigid_partners.push_back(
-              {b, body.rigid, fields.rigid_unknown(b), {}, RigidPose<dim>(*body.rigid, {}), {}});
+              {b, body.rigid, fields.rigid_unknown(b), {}, start, start, {}});
             for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
               if (body.rigid->is_free(m))
                 rigid_partners.back().free_components.push_back(m);
@@ -73,80 +73,34 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
 
 template <int dim>
 void
-ContactPoints<dim>::find_points(const Fields<dim>            &fields,
-                                const LevelSetNodes<dim>     &level_set_nodes,
-                                const std::vector<Body<dim>> &bodies, const double shift)
-{
-  const LagrangeBasis<dim>                   &basis = fields.basis;
-  const BackgroundGrid<dim>                  &grid  = fields.grid;
-  CutCellRules<dim>                           rules(basis);
-  std::array<double, max_nodes_per_cell<dim>> phi_a, phi_b, psi, scaled, shape;
-  for (unsigned int p = 0; p < contact_pairs.size(); ++p)
-    {
-      const Lattice<dim> &a = bodies[contact_pairs[p].a].level_set;
-      const Lattice<dim> &b = bodies[contact_pairs[p].b].level_set;
-      for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-        {
-          const GridCell<dim> &cell   = grid.cells()[c];
-          dealii::Point<dim>   centre = cell.lower;
-          for (unsigned int d = 0; d < dim; ++d)
-            centre[d] += 0.5 * cell.size;
-          const double reach = 0.5 * std::sqrt(double(dim)) * cell.size;
-          const double at_a = a.value(centre, 1), at_b = b.value(centre, 1);
-          if (std::max(at_a, at_b) > shift + 2. * reach || std::abs(at_a - at_b) > 4. * reach)
-            continue;
-          level_set_nodes.cell_values(c, a, phi_a.data());
-          level_set_nodes.cell_values(c, b, phi_b.data());
-          unsigned int n_negative = 0;
-          for (unsigned int i = 0; i < basis.n_nodes; ++i)
-            psi[i] = phi_a[i] - phi_b[i];
-          level_set_nodes.nudged(psi.data(), cell.size, scaled.data());
-          for (unsigned int i = 0; i < basis.n_nodes; ++i)
-            n_negative += scaled[i] < 0.;
-          if (n_negative == 0 || n_negative == basis.n_nodes)
-            continue;
-          const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
-          const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
-          for (unsigned int q = 0; q < surface.points.size(); ++q)
-            {
-              basis.evaluate_values(surface.points[q], shape.data());
-              double gap = 0.;
-              for (unsigned int i = 0; i < basis.n_nodes; ++i)
-                gap += shape[i] * (phi_a[i] + phi_b[i]);
-              // A contour through a vertex leaves points of no length in the cells that touch it.
-              if (gap > 2. * shift || surface.weights[q] < negligible)
-                continue;
-              contact_points.push_back(
-                {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
-                 surface.normals[q], surface.weights[q], gap, cell.size});
-            }
-        }
-    }
-}
-
-template <int dim>
-void
 ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
 {
-  const auto                                     box = fields.grid.box();
-  std::vector<unsigned int>                      of_body;
-  std::vector<dealii::Point<dim>>                projected;
-  std::vector<std::array<dealii::Point<dim>, 2>> feet;
-  for (const ContactPoint<dim> &point : contact_points)
+  const auto                            box = fields.grid.box();
+  std::vector<unsigned int>             of_body;
+  std::vector<dealii::Point<dim>>       projected;
+  std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
+  for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      feet.emplace_back();
-      for (const unsigned int side : {0, 1})
+      const ContactPair &pair = contact_pairs[contact_points[i].pair];
+      for (const unsigned int body : {pair.a, pair.b})
+        if (!bodies[body].is_rigid())
+          {
+            dealii::Point<dim> foot
+              = project(bodies[body].level_set, contact_points[i].position, fields.basis.degree)
+                  .point;
+            for (unsigned int d = 0; d < dim; ++d)
+              foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
+            of_body.push_back(body);
+            projected.push_back(foot);
+          }
+      for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
         {
-          const unsigned int body
-            = side == 0 ? contact_pairs[point.pair].a : contact_pairs[point.pair].b;
-          dealii::Point<dim> &foot = feet.back()[side];
-          foot = project(bodies[body].level_set, point.position, fields.basis.degree).point;
-          if (bodies[body].is_rigid())
-            continue;
-          for (unsigned int d = 0; d < dim; ++d)
-            foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
-          of_body.push_back(body);
-          projected.push_back(foot);
+          const RigidPartner &partner = rigid_partners[side.partner];
+          RigidFoot          &foot    = feet[i][side.number()];
+          foot.X                      = partner.start_pose.initial_position(
+                                 project(bodies[partner.body].level_set, contact_points[i].position, fields.basis.degree)
+                                   .point);
+          foot.start = partner.start_pose.displacement(foot.X);
         }
     }
   const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
@@ -156,14 +110,17 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
       const ContactPair         &pair = contact_pairs[contact_points[i].pair];
-      std::map<DofIndex, double> jump;
+      std::map<DofIndex, double> jump, sides;
       bool                       is_found = true;
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
         if (!bodies[body].is_rigid())
           {
             is_found &= !stencil->empty();
             for (const auto &[node, weight] : *stencil)
-              jump[node] += sign * weight;
+              {
+                jump[node] += sign * weight;
+                sides[node] = sign;
+              }
             ++stencil;
           }
       if (!is_found)
@@ -184,6 +141,8 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
                             static_cast<unsigned int>(nodes.size()),
                             static_cast<unsigned int>(stencil_weights.size())});
           group_nodes.insert(group_nodes.end(), nodes.begin(), nodes.end());
+          for (const auto &[node, side] : sides)
+            group_sides.push_back(side);
         }
       for (const auto &[node, weight] : jump)
         stencil_weights.push_back(weight);
@@ -199,7 +158,7 @@ ContactHistory<dim>
 ContactPoints<dim>::initial_history() const
 {
   const std::vector<dealii::Tensor<1, dim>> zeros(contact_points.size());
-  return {zeros, zeros};
+  return {zeros, zeros, std::vector<double>(contact_points.size())};
 }
 
 template <int dim>
@@ -209,7 +168,10 @@ ContactPoints<dim>::current_history() const
   ContactHistory<dim> history = initial_history();
   history.jump                = contact_jumps;
   for (unsigned int i = 0; i < contact_points.size(); ++i)
-    history.tau[i] = contact_responses[i].tau;
+    {
+      history.tau[i]      = contact_responses[i].tau;
+      history.pressure[i] = contact_responses[i].pressure;
+    }
   return history;
 }
 
@@ -259,27 +221,36 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
         for (unsigned int d = 0; d < dim; ++d)
           nodal[i * dim + d] = u(group_nodes[group.first_node + i] + d);
       const double *weight = stencil_weights.data() + group.first_weight;
+      const double *sides  = group_sides.data() + group.first_node;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
-          dealii::Tensor<1, dim> jump;
+          dealii::Tensor<1, dim> jump, sum;
           for (unsigned int i = 0; i < group.n_nodes; ++i)
             for (unsigned int d = 0; d < dim; ++d)
-              jump[d] += weight[i] * nodal[i * dim + d];
+              {
+                jump[d] += weight[i] * nodal[i * dim + d];
+                sum[d] += sides[i] * weight[i] * nodal[i * dim + d];
+              }
           for (const RigidSide &side : rigid_sides(group))
-            jump += side.sign
-                    * rigid_partners[side.partner].pose.displacement(
-                      contact_feet[p][side.sign < 0. ? 0 : 1]);
+            {
+              const RigidFoot             &foot = contact_feet[p][side.number()];
+              const dealii::Tensor<1, dim> motion
+                = rigid_partners[side.partner].pose.displacement(foot.X) - foot.start;
+              jump += side.sign * motion;
+              sum += motion;
+            }
           const ContactPoint<dim> &point = contact_points[p];
           const auto              &law   = contact_pairs[point.pair].law;
           contact_jumps[p]               = jump;
-          contact_responses[p]
-            = contact_response<dim>(law.law, law.friction_coefficient,
-                                    {point.initial_gap, point.normal, jump, history.jump[p],
-                                     history.tau[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+          contact_means[p]               = 0.5 * sum;
+          contact_responses[p]           = contact_response<dim>(
+            law.law, law.friction_coefficient,
+            {point.initial_gap, point.normal, jump, history.jump[p], history.tau[p],
+                       history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
-              contact_feet[p][side.sign < 0. ? 0 : 1]
+              contact_feet[p][side.number()].X
                 - rigid_partners[side.partner].rigid->reference_point,
               side.sign * point.weight * contact_responses[p].traction(point.normal));
         }
@@ -339,7 +310,7 @@ ContactPoints<dim>::add_rigid_couplings(const Group &group, const unsigned int p
   for (const RigidSide &side : rigid_sides(group))
     {
       const RigidPartner &partner = rigid_partners[side.partner];
-      const auto derivative = partner.pose.derivative(contact_feet[point][side.sign < 0. ? 0 : 1]);
+      const auto derivative       = partner.pose.derivative(contact_feet[point][side.number()].X);
       for (const unsigned int m : partner.free_components)
         columns.push_back(side.sign * derivative[m]);
     }

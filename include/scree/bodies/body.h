@@ -38,7 +38,8 @@ std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &
 
 /**
  * A body: its level set (negative inside, nodal values on a lattice), its material and what acts on
- * it. The geometry is the initial one. A rigid body has no material but a motion.
+ * it. The geometry is the initial one unless `pose` says otherwise. A rigid body has no material
+ * but a motion.
  */
 template <int dim>
 struct Body
@@ -53,6 +54,8 @@ struct Body
   std::vector<BoundaryCondition<dim>>   conditions;
   /** The law of moving geometry; null if the geometry stays or the body is rigid. */
   std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
+  /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
+  typename RigidPose<dim>::Unknowns pose = {};
 
   bool is_rigid() const
   {

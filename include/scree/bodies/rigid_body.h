@@ -104,6 +104,9 @@ public:
   /** u at the initial position X. */
   dealii::Tensor<1, dim> displacement(const dealii::Point<dim> &X) const;
 
+  /** X of the point that is at x: the inverse of X + u(X). */
+  dealii::Point<dim> initial_position(const dealii::Point<dim> &x) const;
+
   /** du/dq at the initial position X, component by component. */
   std::array<dealii::Tensor<1, dim>, n_rigid_components<dim>>
   derivative(const dealii::Point<dim> &X) const;

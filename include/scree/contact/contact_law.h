@@ -36,14 +36,15 @@ extern const EnumNames<ContactStatus> contact_status_names;
 template <int dim>
 struct ContactKinematics
 {
-  double                 initial_gap; //!< g_0 [L], negative: overlap
-  dealii::Tensor<1, dim> normal;      //!< unit, from a to b
-  dealii::Tensor<1, dim> jump;        //!< [[u]] = u_b(x_b) - u_a(x_a) [L]
-  dealii::Tensor<1, dim> old_jump;    //!< [[u]] at the start of the step [L]
-  dealii::Tensor<1, dim> old_tau;     //!< tangential traction at the start of the step
-  double                 eps_n;       //!< normal penalty [force/area/L]
-  double                 eps_t;       //!< tangential penalty [force/area/L]
-  double                 closing_gap; //!< gaps up to this count as closed in the tangent [L]
+  double                 initial_gap;  //!< g_0 [L], negative: overlap
+  dealii::Tensor<1, dim> normal;       //!< unit, from a to b
+  dealii::Tensor<1, dim> jump;         //!< [[u]] = u_b(x_b) - u_a(x_a) [L]
+  dealii::Tensor<1, dim> old_jump;     //!< [[u]] at the start of the step [L]
+  dealii::Tensor<1, dim> old_tau;      //!< tangential traction at the start of the step
+  double                 old_pressure; //!< pressure at the start of the step, of tied points
+  double                 eps_n;        //!< normal penalty [force/area/L]
+  double                 eps_t;        //!< tangential penalty [force/area/L]
+  double                 closing_gap;  //!< gaps up to this count as closed in the tangent [L]
 };
 
 /** Tractions of body a on body b and their derivative. */
@@ -76,8 +77,9 @@ struct ContactResponse
  * f is the part of the step during which the point is closed, 1 if it was closed at the start and
  * -g/(g_n - g) if it closes from the gap g_n: motion before the closing causes no friction, so that
  * tau vanishes with p at the edge of a growing contact (its derivative enters the tangent). Tied: p
- * = -eps_n n.[[u]] of either sign and tau = tau_t. Gaps in [0, closing_gap] carry no traction but
- * the tangent of stick: a body that touches without load is held in the first iteration.
+ * = p_n - eps_n n.([[u]] - [[u]]_n) of either sign and tau = tau_t. Gaps in [0, closing_gap] carry
+ * no traction but the tangent of stick: a body that touches without load is held in the first
+ * iteration.
  */
 template <int dim>
 ContactResponse<dim> contact_response(const ContactLaw law, const double friction_coefficient,

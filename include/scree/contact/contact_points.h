@@ -1,7 +1,7 @@
 #pragma once
 
-#include <scree/contact/contact_parameters.h>
-#include <scree/discretization/cut_quadrature.h>
+#include <scree/contact/contact_law.h>
+#include <scree/contact/contact_surface.h>
 #include <scree/solver/condensed_solver.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -15,32 +15,13 @@
 
 namespace scree
 {
-/** Two bodies that may touch, a < b, and the law between them. */
-struct ContactPair
-{
-  unsigned int          a, b;
-  std::string           name; //!< "block-cylinder"
-  ContactPairParameters law;
-};
-
 /** What a contact point remembers from step to step. */
 template <int dim>
 struct ContactHistory
 {
-  std::vector<dealii::Tensor<1, dim>> tau;  //!< tangential traction on b
-  std::vector<dealii::Tensor<1, dim>> jump; //!< [[u]]
-};
-
-/** A quadrature point of the intermediate surface between two bodies. */
-template <int dim>
-struct ContactPoint
-{
-  unsigned int           pair;
-  dealii::Point<dim>     position;
-  dealii::Tensor<1, dim> normal;      //!< from a to b
-  double                 weight;      //!< length or area
-  double                 initial_gap; //!< g_0 = phi_a + phi_b of degree k
-  double                 cell_size;   //!< h of the penalties
+  std::vector<dealii::Tensor<1, dim>> tau;      //!< tangential traction on b
+  std::vector<dealii::Tensor<1, dim>> jump;     //!< [[u]]
+  std::vector<double>                 pressure; //!< only tied points need it
 };
 
 /**
@@ -48,8 +29,9 @@ struct ContactPoint
  * background cells, as a flat list of points with the stencil of their displacement jump
  * [[u]] = sum_i w_i u(node_i) (method.md section 8). A process holds the points of its cells.
  *
- * A rigid body moves its side of a point by its pose: the unknowns of the free components take the
- * place of the nodes, with the derivatives of a finite rotation.
+ * A rigid body moves its side of a point by its pose q: the unknowns of the free components take
+ * the place of the nodes, with the derivatives of a finite rotation. The motion counts from the
+ * pose q_n of Body::pose, in which its level set shows it: u(X; q) - u(X; q_n).
  *
  * Consecutive points with the same nodes form a group, so that a group is one dense block of the
  * matrix.
@@ -99,6 +81,12 @@ public:
     return contact_jumps;
   }
 
+  /** Means (u_a(x_a) + u_b(x_b))/2 of the last evaluation: how the surface moves. */
+  const std::vector<dealii::Tensor<1, dim>> &mean_displacements() const
+  {
+    return contact_means;
+  }
+
   /** Gap g_0 + n.[[u]] of the last evaluation. */
   double gap(const unsigned int point) const
   {
@@ -143,8 +131,6 @@ public:
   std::vector<std::vector<DofIndex>> couplings() const;
 
 private:
-  void find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                   const std::vector<Body<dim>> &bodies, const double shift);
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
 
@@ -166,14 +152,26 @@ private:
     std::shared_ptr<const RigidBody<dim>> rigid;
     DofIndex                              first_unknown;
     std::vector<unsigned int>             free_components;
-    RigidPose<dim>                        pose; //!< of the last evaluation
-    typename RigidPose<dim>::Load         load; //!< of the last evaluation, on this process
+    RigidPose<dim>                        start_pose; //!< u_n, where the level set shows the body
+    RigidPose<dim>                        pose;       //!< of the last evaluation
+    typename RigidPose<dim>::Load         load;       //!< of the last evaluation, on this process
+  };
+  /** Where a contact point lies on a rigid body. */
+  struct RigidFoot
+  {
+    dealii::Point<dim>     X;     //!< initial position [L]
+    dealii::Tensor<1, dim> start; //!< u_n(X) [L]
   };
   /** A rigid side of a pair: index of the partner and -1 for body a, 1 for body b. */
   struct RigidSide
   {
     unsigned int partner;
     double       sign;
+
+    unsigned int number() const
+    {
+      return sign < 0. ? 0 : 1;
+    }
   };
   const std::vector<RigidSide> &rigid_sides(const Group &group) const
   {
@@ -190,13 +188,14 @@ private:
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;
-  /** Projections of each point on the bodies a and b; empty without rigid bodies. */
-  std::vector<std::array<dealii::Point<dim>, 2>> contact_feet;
-  std::vector<Group>                             groups;
-  std::vector<DofIndex>                          group_nodes;
-  std::vector<double>                 stencil_weights; //!< per point, the nodes of its group
-  std::vector<dealii::Tensor<1, dim>> contact_jumps;
-  std::vector<ContactResponse<dim>>   contact_responses;
-  std::vector<dealii::Tensor<2, dim>> glued_tangents; //!< D_0 times the weight
+  /** Of the rigid ones of the bodies a and b of each point; empty without rigid bodies. */
+  std::vector<std::array<RigidFoot, 2>> contact_feet;
+  std::vector<Group>                    groups;
+  std::vector<DofIndex>                 group_nodes;
+  std::vector<double>                   group_sides;     //!< of each node, -1: body a, 1: body b
+  std::vector<double>                   stencil_weights; //!< per point, the nodes of its group
+  std::vector<dealii::Tensor<1, dim>>   contact_jumps, contact_means;
+  std::vector<ContactResponse<dim>>     contact_responses;
+  std::vector<dealii::Tensor<2, dim>>   glued_tangents; //!< D_0 times the weight
 };
 } // namespace scree

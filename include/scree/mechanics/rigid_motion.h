@@ -11,9 +11,9 @@
 namespace scree
 {
 /**
- * The infinitesimal rigid motions of a body about the centre of its box (of a rigid body: about its
- * reference point), rotations scaled by its size so that all have the dimension of a translation,
- * and a measure of what resists them.
+ * The infinitesimal rigid motions of a body about the centre of its box (of a rigid body: about
+ * its reference point where it is now), rotations scaled by its size so that all have the dimension
+ * of a translation, and a measure of what resists them.
  */
 template <int dim>
 class RigidMotions
@@ -29,7 +29,7 @@ public:
   {
     if (body.is_rigid())
       {
-        centre = body.rigid->reference_point;
+        centre = body.rigid->reference_point + RigidPose<dim>(*body.rigid, body.pose).translation();
         size   = body.rigid->radius;
         return;
       }

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <scree/contact/contact_points.h>
+
+#include <boost/serialization/vector.hpp>
+#include <mpi.h>
+#include <vector>
+
+namespace scree
+{
+/**
+ * What the material points of the contact surfaces remember when the geometry moves: one entry of
+ * each array per old contact point. Pairs are found anew in each step, entries name their bodies.
+ * All processes hold all entries, in an order that does not depend on their number.
+ */
+template <int dim>
+struct ContactMemory
+{
+  std::vector<unsigned int>           body_a, body_b; //!< numbers of the bodies, a < b
+  std::vector<dealii::Point<dim>>     position;       //!< [L]
+  std::vector<dealii::Tensor<1, dim>> normal;         //!< unit, from a to b
+  std::vector<double>                 weight;         //!< length or area
+  std::vector<double>                 cell_size;      //!< h where the point was [L]
+  std::vector<dealii::Tensor<1, dim>> tau;            //!< tangential traction on b
+  std::vector<double>                 pressure;       //!< positive in compression
+
+  std::size_t size() const
+  {
+    return position.size();
+  }
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &body_a &body_b &position &normal &weight &cell_size &tau &pressure;
+  }
+};
+
+/**
+ * The points that are closed, or open by at most a cell, moved by the last evaluation: the latter
+ * carry zero, so that tractions end where contact ended. Collective.
+ */
+template <int dim>
+ContactMemory<dim> remember(const ContactPoints<dim> &contact, const MPI_Comm communicator);
+
+/**
+ * Moves remembered points by their displacements m: x' = x + m. The gradient of m along the surface
+ * (weighted linear least squares over the neighbours, exact for linear m) turns the tangents t_k to
+ * t_k' = t_k + dm/dt_k. With T' = (t_1', t_2'), the polar decomposition T' = E (T'^T T')^{1/2} and
+ * the area ratio J = det (T'^T T')^{1/2}:
+ *
+ *     n' normal to E,   weight' = J weight,   tau' = E T^T tau/J,   p' = p/J
+ *
+ * so that the force of a point keeps its length and turns with the surface. Points with too few
+ * neighbours keep n, tau and p.
+ */
+template <int dim>
+ContactMemory<dim> moved(const ContactMemory<dim>                  &memory,
+                         const std::vector<dealii::Tensor<1, dim>> &displacement);
+
+/**
+ * History of contact points from what old points of the same bodies remember, with [[u]]_n = 0.
+ * Neighbours within two cells whose normals differ by less than 60 degrees are turned into the new
+ * tangent plane, keeping their length, and interpolated there: moving least squares with a linear
+ * basis and weights (1 - d^2/r^2)^2/d^2 that are singular at d = 0 (Lancaster and Salkauskas, Math.
+ * Comp. 37, 1981), so that coinciding points get what was remembered and linear fields on planes
+ * are reproduced. The linear part is bounded by the scatter of the neighbours' values, results are
+ * at most as large as the largest of these and do not reverse outside them. Zero without
+ * neighbours. O(n).
+ */
+template <int dim>
+ContactHistory<dim> recall(const std::vector<ContactPoint<dim>> &points,
+                           const std::vector<ContactPair> &pairs, const ContactMemory<dim> &memory);
+
+/** The same for the points of this process. */
+template <int dim>
+ContactHistory<dim> recall(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory);
+
+/** Contact forces of a pair on body b before and after they are transferred to new points. */
+template <int dim>
+struct TransferredForce
+{
+  dealii::Tensor<1, dim> total_before, total_after;           //!< int p n + tau
+  dealii::Tensor<1, dim> tangential_before, tangential_after; //!< int tau
+};
+
+/** Forces of what is remembered and of what is recalled, for each pair of `contact`. Collective. */
+template <int dim>
+std::vector<TransferredForce<dim>>
+transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
+                   const ContactHistory<dim> &history, const MPI_Comm communicator);
+} // namespace scree

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <scree/contact/contact_parameters.h>
+#include <scree/discretization/fields.h>
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+/** Two bodies that may touch, a < b, and the law between them. */
+struct ContactPair
+{
+  unsigned int          a, b;
+  std::string           name; //!< "block-cylinder"
+  ContactPairParameters law;
+};
+
+/** A quadrature point of the intermediate surface between two bodies. */
+template <int dim>
+struct ContactPoint
+{
+  unsigned int           pair;
+  dealii::Point<dim>     position;
+  dealii::Tensor<1, dim> normal;      //!< from a to b
+  double                 weight;      //!< length or area
+  double                 initial_gap; //!< g_0 = phi_a + phi_b of degree k
+  double                 cell_size;   //!< h of the penalties
+};
+
+/**
+ * The unbiased contact surface S = {phi_a = phi_b <= shift} of all pairs, cut from the background
+ * cells of this process (method.md section 8).
+ *
+ * @param shift bound on phi on the contact surface [L]
+ */
+template <int dim>
+std::vector<ContactPoint<dim>>
+contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+                const double shift);
+} // namespace scree

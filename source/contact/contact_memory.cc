@@ -1,0 +1,472 @@
+#include <scree/contact/contact_memory.h>
+#include <scree/points/point_search.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace scree
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double reach_in_cells  = 2.;
+constexpr double smallest_cosine = 0.5; // between the normals of neighbours
+
+/** Tangents of a surface. */
+template <int dim>
+using Frame = std::array<Tensor<1, dim>, dim - 1>;
+
+/** Orthonormal tangents with t_1 x t_2 = n; 2D: n is t_1 turned to the left. */
+template <int dim>
+Frame<dim>
+tangents(const Tensor<1, dim> &normal)
+{
+  Frame<dim> result;
+  if constexpr (dim == 2)
+    {
+      result[0][0] = normal[1];
+      result[0][1] = -normal[0];
+    }
+  else
+    {
+      unsigned int smallest = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) < std::abs(normal[smallest]))
+          smallest = d;
+      result[0] = -normal[smallest] * normal;
+      result[0][smallest] += 1.;
+      result[0] /= result[0].norm();
+      result[1] = cross_product_3d(normal, result[0]);
+    }
+  return result;
+}
+
+/** The normal of orthonormal tangents. */
+template <int dim>
+Tensor<1, dim>
+normal_of(const Frame<dim> &tangents)
+{
+  if constexpr (dim == 2)
+    return Tensor<1, 2>({-tangents[0][1], tangents[0][0]});
+  else
+    return cross_product_3d(tangents[0], tangents[1]);
+}
+
+/** R v for v normal to `from`, R the smallest rotation that turns the unit vector `from` to `to`.
+ */
+template <int dim>
+Tensor<1, dim>
+turned(const Tensor<1, dim> &v, const Tensor<1, dim> &from, const Tensor<1, dim> &to)
+{
+  return v - (to * v) / (1. + from * to) * (from + to);
+}
+
+/** A remembered point next to a place of the surface. */
+template <int dim>
+struct Neighbour
+{
+  unsigned int       entry;
+  double             square; //!< of the distance
+  double             weight; //!< the sum over all is 1
+  Tensor<1, dim - 1> place;  //!< in the tangent plane
+};
+
+/** Finds remembered points. */
+template <int dim>
+class SurfaceSearch
+{
+public:
+  explicit SurfaceSearch(const ContactMemory<dim> &memory)
+      : memory(memory)
+      , largest_cell(memory.size() == 0
+                       ? 1.
+                       : *std::max_element(memory.cell_size.begin(), memory.cell_size.end()))
+      , search(memory.position, numbers(), 0.5 * reach_in_cells * largest_cell)
+  {
+  }
+
+  /**
+   * Neighbours of x, weighted by `weight(d^2, d^2/r^2)`. A point at x is the only neighbour of x if
+   * `is_interpolating`.
+   */
+  template <typename Weight>
+  void find(const std::pair<unsigned int, unsigned int> &bodies, const ContactPoint<dim> &x,
+            const bool is_interpolating, const Weight &weight,
+            std::vector<Neighbour<dim>> &neighbours) const
+  {
+    neighbours.clear();
+    const auto pair = pair_numbers.find(bodies);
+    if (pair == pair_numbers.end())
+      return;
+    const auto   tangent = tangents<dim>(x.normal);
+    const double radius  = reach_in_cells * std::max(x.cell_size, largest_cell);
+    search.for_each_within(
+      pair->second, x.position, radius, [&](const unsigned int entry, const double square) {
+        const double reach = reach_in_cells * std::max(x.cell_size, memory.cell_size[entry]);
+        if (square >= reach * reach || x.normal * memory.normal[entry] < smallest_cosine)
+          return;
+        Neighbour<dim>       neighbour{entry, square, weight(square, square / (reach * reach)), {}};
+        const Tensor<1, dim> arm = memory.position[entry] - x.position;
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          neighbour.place[k] = tangent[k] * arm;
+        neighbours.push_back(neighbour);
+      });
+    if (is_interpolating)
+      keep_coinciding(1e-9 * x.cell_size, neighbours);
+    double sum = 0.;
+    for (const auto &neighbour : neighbours)
+      sum += neighbour.weight;
+    for (auto &neighbour : neighbours)
+      neighbour.weight /= sum;
+  }
+
+private:
+  static void keep_coinciding(const double tolerance, std::vector<Neighbour<dim>> &neighbours)
+  {
+    const auto nearest
+      = std::min_element(neighbours.begin(), neighbours.end(),
+                         [](const auto &p, const auto &q) { return p.square < q.square; });
+    if (nearest != neighbours.end() && nearest->square <= tolerance * tolerance)
+      neighbours = {*nearest};
+  }
+
+  /** Numbers of the pairs of all entries. */
+  std::vector<unsigned int> numbers()
+  {
+    std::vector<unsigned int> result;
+    result.reserve(memory.size());
+    for (std::size_t i = 0; i < memory.size(); ++i)
+      result.push_back(
+        pair_numbers
+          .emplace(std::make_pair(memory.body_a[i], memory.body_b[i]), pair_numbers.size())
+          .first->second);
+    return result;
+  }
+
+  const ContactMemory<dim>                                     &memory;
+  double                                                        largest_cell;
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> pair_numbers;
+  PointSearch<dim>                                              search;
+};
+
+/**
+ * Weighted linear least squares in the tangent plane: of values f_i at xi_i with mean xi the slope
+ * is C^{-1} sum w_i (xi_i - xi) f_i, C = sum w_i (xi_i - xi)(xi_i - xi)^T.
+ */
+template <int dim>
+class LinearFit
+{
+public:
+  /** `length` [L] of the neighbourhood. */
+  LinearFit(const std::vector<Neighbour<dim>> &neighbours, const double length)
+  {
+    for (const auto &neighbour : neighbours)
+      mean += neighbour.weight * neighbour.place;
+    SymmetricTensor<2, dim - 1> C;
+    for (const auto &neighbour : neighbours)
+      {
+        const Tensor<1, dim - 1> arm = neighbour.place - mean;
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          for (unsigned int l = 0; l <= k; ++l)
+            C[k][l] += neighbour.weight * arm[k] * arm[l];
+        is_outside = is_outside && neighbour.place * mean > 0.;
+      }
+    constexpr double smallest_ratio = 1e-4; // about that of the eigenvalues
+    is_linear                       = trace(C) > 1e-18 * length * length
+                && determinant(C) > smallest_ratio * std::pow(trace(C), dim - 1);
+    if (is_linear)
+      inverse = invert(C);
+  }
+
+  /** s with slope . v = sum_i w_i (s . (xi_i - xi)) f_i. */
+  Tensor<1, dim - 1> direction(const Tensor<1, dim - 1> &v) const
+  {
+    return inverse * v;
+  }
+
+  Tensor<1, dim - 1> mean;
+  bool               is_outside = true;  //!< all neighbours lie on one side
+  bool               is_linear  = false; //!< their places determine a slope
+
+private:
+  SymmetricTensor<2, dim - 1> inverse;
+};
+
+double
+length(const double value)
+{
+  return std::abs(value);
+}
+
+template <int dim>
+double
+length(const Tensor<1, dim> &value)
+{
+  return value.norm();
+}
+
+/** The fit at the origin, bounded as recall() says; `values` of the neighbours. */
+template <int dim, typename T>
+T
+bounded_fit(const std::vector<Neighbour<dim>> &neighbours, const LinearFit<dim> &fit,
+            const std::vector<T> &values)
+{
+  const Tensor<1, dim - 1> direction = fit.direction(-fit.mean);
+  T                        mean{}, linear{};
+  double                   scatter = 0., largest = 0.;
+  for (unsigned int i = 0; i < values.size(); ++i)
+    {
+      const auto &neighbour = neighbours[i];
+      mean += neighbour.weight * values[i];
+      linear += neighbour.weight * (direction * (neighbour.place - fit.mean)) * values[i];
+      largest = std::max(largest, length(values[i]));
+    }
+  for (const T &value : values)
+    scatter = std::max(scatter, length(value - mean));
+  if (length(linear) > scatter)
+    linear *= scatter / length(linear);
+  T result = mean + linear;
+  if (fit.is_outside && result * mean < 0.)
+    return T{};
+  if (length(result) > largest)
+    result *= largest / length(result);
+  return result;
+}
+
+/** t_k + dm/dt_k of tangents t_k, m the displacement. */
+template <int dim>
+Frame<dim>
+deformed(const Frame<dim> &frame, const std::vector<Neighbour<dim>> &neighbours,
+         const LinearFit<dim> &fit, const std::vector<Tensor<1, dim>> &displacement)
+{
+  Frame<dim> result = frame;
+  for (unsigned int k = 0; k < dim - 1; ++k)
+    {
+      Tensor<1, dim - 1> axis;
+      axis[k]              = 1.;
+      const auto direction = fit.direction(axis);
+      for (const auto &neighbour : neighbours)
+        result[k] += neighbour.weight * (direction * (neighbour.place - fit.mean))
+                     * displacement[neighbour.entry];
+    }
+  return result;
+}
+
+/** T' = E (T'^T T')^{1/2}: the rotated tangents E and the area ratio. */
+template <int dim>
+struct FrameMotion
+{
+  explicit FrameMotion(const Frame<dim> &deformed)
+  {
+    SymmetricTensor<2, dim - 1> metric;
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      for (unsigned int l = 0; l <= k; ++l)
+        metric[k][l] = deformed[k] * deformed[l];
+    stretch                          = std::sqrt(determinant(metric));
+    SymmetricTensor<2, dim - 1> root = metric; // S^{1/2} = (S + J I)/(tr S + 2 J)^{1/2} in 3D
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      root[k][k] += stretch;
+    root /= dim == 2 ? 1. + stretch : std::sqrt(trace(metric) + 2. * stretch);
+    const SymmetricTensor<2, dim - 1> inverse = invert(root);
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      for (unsigned int l = 0; l < dim - 1; ++l)
+        frame[k] += inverse[k][l] * deformed[l];
+  }
+
+  double     stretch;
+  Frame<dim> frame;
+};
+
+/** A row of numbers per point, all processes' rows in the order of bodies and places. */
+template <int dim>
+std::vector<std::vector<double>>
+gathered_rows(const ContactPoints<dim> &contact, const MPI_Comm communicator)
+{
+  std::vector<std::vector<double>> rows;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point    = contact.points()[i];
+      const auto              &response = contact.responses()[i];
+      if (response.status == ContactStatus::open && contact.gap(i) > point.cell_size)
+        continue;
+      const ContactPair  &pair = contact.pairs()[point.pair];
+      std::vector<double> row  = {double(pair.a), double(pair.b)};
+      const auto          add  = [&row](const Tensor<1, dim> &vector) {
+        row.insert(row.end(), vector.begin_raw(), vector.end_raw());
+      };
+      add(point.position);
+      row.insert(row.end(), {point.weight, point.cell_size, response.pressure});
+      add(point.normal);
+      add(response.tau);
+      add(contact.mean_displacements()[i]);
+      rows.push_back(row);
+    }
+  std::vector<std::vector<double>> result;
+  for (auto &of_process : Utilities::MPI::all_gather(communicator, rows))
+    result.insert(result.end(), of_process.begin(), of_process.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+} // namespace
+
+template <int dim>
+ContactMemory<dim>
+remember(const ContactPoints<dim> &contact, const MPI_Comm communicator)
+{
+  ContactMemory<dim>          memory;
+  std::vector<Tensor<1, dim>> displacement;
+  for (const auto &row : gathered_rows(contact, communicator))
+    {
+      const double *next   = row.data();
+      const auto    vector = [&next] {
+        Tensor<1, dim> result;
+        std::copy_n(next, dim, result.begin_raw());
+        next += dim;
+        return result;
+      };
+      memory.body_a.push_back(static_cast<unsigned int>(*next++));
+      memory.body_b.push_back(static_cast<unsigned int>(*next++));
+      memory.position.push_back(Point<dim>(vector()));
+      memory.weight.push_back(*next++);
+      memory.cell_size.push_back(*next++);
+      memory.pressure.push_back(*next++);
+      memory.normal.push_back(vector());
+      memory.tau.push_back(vector());
+      displacement.push_back(vector());
+    }
+  return moved(memory, displacement);
+}
+
+template <int dim>
+ContactMemory<dim>
+moved(const ContactMemory<dim> &memory, const std::vector<Tensor<1, dim>> &displacement)
+{
+  AssertDimension(displacement.size(), memory.size());
+  const SurfaceSearch<dim>    search(memory);
+  std::vector<Neighbour<dim>> neighbours;
+  ContactMemory<dim>          result = memory;
+  for (std::size_t i = 0; i < memory.size(); ++i)
+    {
+      result.position[i] += displacement[i];
+      search.find(
+        {memory.body_a[i], memory.body_b[i]},
+        {0, memory.position[i], memory.normal[i], 0., 0., memory.cell_size[i]}, false,
+        [](const double, const double ratio) { return (1. - ratio) * (1. - ratio); }, neighbours);
+      const LinearFit<dim> fit(neighbours, memory.cell_size[i]);
+      if (!fit.is_linear)
+        continue;
+      const Frame<dim>       old_frame = tangents<dim>(memory.normal[i]);
+      const FrameMotion<dim> motion(deformed(old_frame, neighbours, fit, displacement));
+      if (!(motion.stretch > 0.1))
+        continue; // the step folds the surface
+      result.normal[i] = normal_of<dim>(motion.frame);
+      result.tau[i]    = 0.;
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        result.tau[i] += (old_frame[k] * memory.tau[i]) / motion.stretch * motion.frame[k];
+      result.weight[i] *= motion.stretch;
+      result.pressure[i] /= motion.stretch;
+    }
+  return result;
+}
+
+template <int dim>
+ContactHistory<dim>
+recall(const std::vector<ContactPoint<dim>> &points, const std::vector<ContactPair> &pairs,
+       const ContactMemory<dim> &memory)
+{
+  const std::vector<Tensor<1, dim>> zeros(points.size());
+  ContactHistory<dim>               history{zeros, zeros, std::vector<double>(points.size())};
+  const SurfaceSearch<dim>          search(memory);
+  std::vector<Neighbour<dim>>       neighbours;
+  std::vector<Tensor<1, dim>>       tau;
+  std::vector<double>               pressure;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const ContactPoint<dim> &point   = points[i];
+      const ContactPair       &pair    = pairs[point.pair];
+      const double             minimum = 1e-12 * point.cell_size * point.cell_size;
+      search.find(
+        {pair.a, pair.b}, point, true,
+        [minimum](const double square, const double ratio) {
+          return (1. - ratio) * (1. - ratio) / (square + minimum);
+        },
+        neighbours);
+      if (neighbours.empty())
+        continue;
+      tau.clear();
+      pressure.clear();
+      for (const auto &neighbour : neighbours)
+        {
+          tau.push_back(
+            turned(memory.tau[neighbour.entry], memory.normal[neighbour.entry], point.normal));
+          pressure.push_back(memory.pressure[neighbour.entry]);
+        }
+      const LinearFit<dim> fit(neighbours, point.cell_size);
+      history.tau[i]      = bounded_fit(neighbours, fit, tau);
+      history.pressure[i] = bounded_fit(neighbours, fit, pressure);
+    }
+  return history;
+}
+
+template <int dim>
+ContactHistory<dim>
+recall(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory)
+{
+  return recall(contact.points(), contact.pairs(), memory);
+}
+
+template <int dim>
+std::vector<TransferredForce<dim>>
+transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
+                   const ContactHistory<dim> &history, const MPI_Comm communicator)
+{
+  std::vector<TransferredForce<dim>>                            result(contact.pairs().size());
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> number;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    number[{contact.pairs()[p].a, contact.pairs()[p].b}] = p;
+  for (std::size_t i = 0; i < memory.size(); ++i)
+    {
+      const auto pair = number.find({memory.body_a[i], memory.body_b[i]});
+      if (pair == number.end())
+        continue;
+      TransferredForce<dim> &force = result[pair->second];
+      force.tangential_before += memory.weight[i] * memory.tau[i];
+      force.total_before
+        += memory.weight[i] * (memory.pressure[i] * memory.normal[i] + memory.tau[i]);
+    }
+  for (std::size_t i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      TransferredForce<dim>   &force = result[point.pair];
+      force.tangential_after += point.weight * history.tau[i];
+      force.total_after += point.weight * (history.pressure[i] * point.normal + history.tau[i]);
+    }
+  for (auto &force : result)
+    {
+      force.tangential_after = Utilities::MPI::sum(force.tangential_after, communicator);
+      force.total_after      = Utilities::MPI::sum(force.total_after, communicator);
+    }
+  return result;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template ContactMemory<dim>  remember(const ContactPoints<dim> &, const MPI_Comm);           \
+  template ContactMemory<dim>  moved(const ContactMemory<dim> &,                               \
+                                     const std::vector<Tensor<1, dim>> &);                     \
+  template ContactHistory<dim> recall(const std::vector<ContactPoint<dim>> &,                  \
+                                      const std::vector<ContactPair> &,                        \
+                                      const ContactMemory<dim> &);                             \
+  template ContactHistory<dim> recall(const ContactPoints<dim> &, const ContactMemory<dim> &); \
+  template std::vector<TransferredForce<dim>> transferred_forces(                              \
+    const ContactPoints<dim> &, const ContactMemory<dim> &, const ContactHistory<dim> &,       \
+    const MPI_Comm);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree
