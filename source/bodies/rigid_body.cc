@@ -184,11 +184,13 @@ MotionParameters<dim>::declare(ParameterSection &section)
 
 template <int dim>
 RigidBody<dim>::RigidBody(const MotionParameters<dim>    &parameters,
-                          const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture)
+                          const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture,
+                          const std::shared_ptr<const Shape<dim>> &shape)
     : reference_point(box.center())
     , radius(0.)
     , box(box)
     , picture(picture)
+    , shape(shape)
     , path(parameters.path)
 {
   if (!parameters.reference_point.empty())
@@ -255,6 +257,14 @@ RigidPose<dim>::displacement(const dealii::Point<dim> &X) const
 {
   const dealii::Tensor<1, dim> arm = X - centre;
   return product(R, arm) - arm + shift;
+}
+
+template <int dim>
+dealii::Point<dim>
+RigidPose<dim>::initial_position(const dealii::Point<dim> &x) const
+{
+  const dealii::Tensor<1, dim> arm = x - shift - centre;
+  return x - shift + (product(transpose(R), arm) - arm);
 }
 
 template <int dim>

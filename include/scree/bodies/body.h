@@ -51,6 +51,7 @@ struct Body
   std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
   Expression<dim>                       body_force; //!< force per volume
   std::vector<BoundaryCondition<dim>>   conditions;
+  typename RigidPose<dim>::Unknowns     pose = {}; //!< of a rigid body, at which level_set shows it
 
   bool is_rigid() const
   {
