@@ -169,8 +169,9 @@ Simulation<dim>::run()
         step_control.accept(record.newton_iterations);
         write_results();
         report_step(wall.wall_time());
-        if (is_moving() && !step_control.finished())
+        if (is_moving())
           move_geometry();
+        results->write_history();
       }
     else
       {
@@ -420,7 +421,7 @@ Simulation<dim>::write_results()
   const bool           is_last = step_control.finished();
   const auto           is_due
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
-  results->write_history(record, *equilibrium, *contact, *bulk, state.displacement);
+  results->gather_history(record, *equilibrium, *contact, *bulk, state.displacement);
   results->write_probes(record, *bulk, ghosted);
   if (is_due(output.fields_every))
     results->write_fields(record, *bulk, ghosted);

@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/bodies/rigid_placement.h>
 #include <scree/points/migration.h>
 #include <scree/points/seeding.h>
 #include <scree/points/splitting.h>
@@ -81,9 +82,7 @@ Simulation<dim>::moved_points(const typename Equilibrium<dim>::Vector &u) const
           points.stress[p][i][j] = response.cauchy[i][j];
       if (points.n_internal() > 0)
         {
-          PointHistory<dim> next;
-          next.internal = response.internal;
-          next.alpha    = response.alpha;
+          const PointHistory<dim> next = law.finish(history, F_D, response);
           store_internal(next, &points.internal[p * points.n_internal()]);
         }
     }
@@ -122,6 +121,8 @@ Simulation<dim>::move_geometry()
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     multipliers.push_back(ghosted(fields->multiplier(i)));
   predictor.of_rigid.resize(bodies.size());
+  MotionRecord<dim> record;
+  record.transfer_report = step_start->transfer_report();
   {
     const Timings::Scope scope(timings, "level sets");
     const double         margin = lattice_margin();
@@ -129,7 +130,10 @@ Simulation<dim>::move_geometry()
     for (auto &motion :
          move_level_sets(bodies, *fields, ghosted,
                          {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
-      predictor.of_bodies.push_back(std::move(motion.increment));
+      {
+        predictor.of_bodies.push_back(std::move(motion.increment));
+        record.n_islands += motion.n_islands;
+      }
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (bodies[b].is_rigid())
         {
@@ -143,6 +147,10 @@ Simulation<dim>::move_geometry()
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step(memory, multipliers, energies);
+  record.volumes   = bulk->volumes();
+  record.points    = state.points.totals(bodies.size(), communicator);
+  record.transfers = transferred_forces(*contact, memory, state.contact, communicator);
+  results->gather_motion(record);
 }
 
 template <int dim>

@@ -82,12 +82,24 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   for (const auto &body : bodies)
     if (body.is_rigid())
       add_rigid_names<dim>(body.name, names);
+  const bool is_moving = !equilibrium.is_linear_but_for_contact();
   for (const auto &body : bodies)
     if (!body.is_rigid())
-      names.push_back(body.name + ".volume");
+      names.push_back(body.name + (is_moving ? ".start_volume" : ".volume"));
   for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
                                    "plastic", "external_work", "transfer", "balance_error"})
     names.push_back("energy." + energy);
+  if (!is_moving)
+    return names;
+  for (const auto &body : bodies)
+    if (!body.is_rigid())
+      for (const std::string column : {"volume", "point_volume", "mass", "points"})
+        names.push_back(body.name + "." + column);
+  for (const ContactPair &pair : contact.pairs())
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(pair.name + ".transfer_" + axes[d]);
+  names.push_back("islands");
+  names.push_back("widened_transfers");
   return names;
 }
 
@@ -124,13 +136,11 @@ Results<dim>::last_values() const
 
 template <int dim>
 void
-Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                            const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
-                            const Vector &u)
+Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                             const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
+                             const Vector &u)
 {
-  if (is_first && !history)
-    history = std::make_unique<CsvTable>(directory + "/history.csv",
-                                         history_columns(equilibrium, contact));
+  history_names               = history_columns(equilibrium, contact);
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};

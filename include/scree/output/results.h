@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/contact_memory.h>
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
@@ -21,6 +22,17 @@ struct StepRecord
   unsigned int attempts          = 1; //!< 1 + number of cuts before
   unsigned int linear_iterations = 0;
   double       residual          = 0.; //!< |r| at the end
+};
+
+/** The bodies and their contact after the geometry moved at the end of a step. */
+template <int dim>
+struct MotionRecord
+{
+  std::vector<double>                volumes;   //!< of all bodies by their level sets [L^dim]
+  std::vector<PointTotals<dim>>      points;    //!< of all bodies
+  std::vector<TransferredForce<dim>> transfers; //!< of all pairs
+  MovingLeastSquaresReport           transfer_report;
+  unsigned int                       n_islands = 0;
 };
 
 /**
@@ -46,9 +58,15 @@ public:
   /** The values of columns() at the last write_history() and write_probes(), on all processes. */
   std::vector<double> last_values() const;
 
-  /** Adds the row of an accepted state to history.csv. */
-  void write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                     const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+  /** Gathers the row of an accepted state for history.csv. */
+  void gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                      const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+
+  /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
+  void gather_motion(const MotionRecord<dim> &motion);
+
+  /** Writes the gathered row. */
+  void write_history();
 
   /** Body VTU and lines. */
   void write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
@@ -79,6 +97,7 @@ private:
   std::unique_ptr<BodyOutput<dim>>            body_output;
   bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
+  std::vector<std::string>                    history_names;
   std::vector<double>                         history_row, probe_row; //!< the last ones
   std::vector<std::pair<double, std::string>> body_records, contact_records;
 };
