@@ -355,11 +355,11 @@ TEST(MovingLevelSets, KeepPiecesAndRemoveIslands)
   EXPECT_LT(it.lattice().value(Point<2>(2.62, 2.01), 1), -0.2);
 
   // A spot that no cell knows of.
-  Lattice<2>       &phi  = it.cut.bodies.front().level_set;
-  Lattice<2>::Index spot = phi.lower();
-  for (unsigned int d = 0; d < 2; ++d)
-    spot[d] += 3;
-  phi(spot)          = -0.01;
+  Lattice<2>       &phi    = it.cut.bodies.front().level_set;
+  Lattice<2>::Index corner = phi.lower();
+  for (int i = 2; i < 6; ++i)
+    for (int j = 2; j < 6; ++j)
+      phi({{corner[0] + i, corner[1] + j}}) = -0.3;
   const auto motions = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.options);
   EXPECT_EQ(motions.front().n_islands, 1u);
   std::size_t n_far = 0;
