@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/level_set/extension.h>
 #include <scree/level_set/fast_marching.h>
+#include <scree/level_set/pieces.h>
 #include <scree/level_set/reboxing.h>
 #include <scree/level_set/reinitialisation.h>
 #include <scree/mechanics/moving_level_sets.h>
@@ -270,47 +271,7 @@ continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
       v[d][offset] = v_part[d][i];
     ++i;
   });
-  continue_through_faces(lattice, inside, v);
-}
-
-/** The connected pieces of {phi < 0}: the number of each node's piece, 0 where phi >= 0. */
-template <int dim>
-std::vector<unsigned int>
-pieces(const Lattice<dim> &lattice, unsigned int &n_pieces)
-{
-  std::vector<unsigned int> piece(lattice.values().size(), 0);
-  std::vector<std::size_t>  open;
-  n_pieces         = 0;
-  const auto visit = [&](const std::size_t node) {
-    if (lattice.values()[node] < 0. && piece[node] == 0)
-      {
-        piece[node] = n_pieces;
-        open.push_back(node);
-      }
-  };
-  for (std::size_t start = 0; start < piece.size(); ++start)
-    {
-      if (piece[start] != 0 || lattice.values()[start] >= 0.)
-        continue;
-      ++n_pieces;
-      for (visit(start); !open.empty();)
-        {
-          const std::size_t node = open.back();
-          open.pop_back();
-          std::size_t stride = 1, rest = node;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const std::size_t n = lattice.n_nodes()[d];
-              if (rest % n > 0)
-                visit(node - stride);
-              if (rest % n + 1 < n)
-                visit(node + stride);
-              rest /= n;
-              stride *= n;
-            }
-        }
-    }
-  return piece;
+  continue_through_faces<dim>(lattice, inside, v);
 }
 
 /**
@@ -324,11 +285,10 @@ unsigned int
 remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
                const std::vector<char> &known, const NodalVectors<dim> &du)
 {
-  unsigned int                    n_pieces;
-  const std::vector<unsigned int> piece = pieces(lattice, n_pieces);
-  if (n_pieces <= 1)
+  const Pieces pieces = negative_pieces(lattice);
+  if (pieces.n <= 1)
     return 0;
-  std::vector<char> has_material(n_pieces + 1, 0);
+  std::vector<char> has_material(pieces.n + 1, 0);
   for (std::size_t i = 0; i < known.size(); ++i)
     {
       if (!known[i] || old[i] >= 0.)
@@ -342,11 +302,11 @@ remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
           for (unsigned int d = 0; d < dim; ++d)
             node[d] += corner >> d & 1u;
           if (lattice.contains(node))
-            has_material[piece[lattice.offset(node)]] = 1;
+            has_material[pieces.of_node[lattice.offset(node)]] = 1;
         }
     }
-  for (std::size_t i = 0; i < piece.size(); ++i)
-    if (piece[i] > 0 && !has_material[piece[i]])
+  for (std::size_t i = 0; i < pieces.of_node.size(); ++i)
+    if (pieces.of_node[i] > 0 && !has_material[pieces.of_node[i]])
       lattice.values()[i] = 0.5 * lattice.spacing();
   return std::count(has_material.begin() + 1, has_material.end(), 0);
 }
@@ -396,13 +356,13 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
   std::vector<char> known(phi.values().size());
   for (std::size_t i = 0; i < known.size(); ++i)
     known[i] = v[0][i] != unset;
-  continue_off_body(phi, known, box, v);
+  continue_off_body<dim>(phi, known, box, v);
 
   if (has_contour(phi))
     {
       const std::vector<double> old = phi.values();
       result.n_unconverged          = advect_increment<dim>(phi, v, options.motion).n_unconverged;
-      result.n_islands              = remove_islands(phi, old, known, v);
+      result.n_islands              = remove_islands<dim>(phi, old, known, v);
       ReinitialisationOptions reinitialisation;
       reinitialisation.tolerance = options.reinitialisation_tolerance;
       result.contour_motion      = reinitialise(phi, reinitialisation).contour_motion;

@@ -230,22 +230,38 @@ check_ellipse(const std::string &name, const std::string &text, const unsigned i
 TEST(MovingLevelSets, FollowAffineMaps)
 {
   const double       h = 1. / 32.;
-  Tensor<2, 2>       none, compression;
-  Tensor<1, 2>       shift({0.37 * h * 0.8, -0.37 * h * 0.6}), zero;
-  const Tensor<2, 2> rotation = turn<2>(numbers::PI / 25.); // 7.2 degrees
-  compression[0][0]           = 0.004;
-  compression[1][1]           = std::pow(0.9, 0.1) - 1.;
+  const Tensor<2, 2> none, rotation = turn<2>(numbers::PI / 25.); // 7.2 degrees
+  const Tensor<1, 2> zero, shift({0.37 * h * 0.8, -0.37 * h * 0.6});
+  Tensor<2, 2>       compression;
+  compression[0][0] = 0.004;
+  compression[1][1] = std::pow(0.9, 0.1) - 1.;
   for (const unsigned int degree : {1, 2})
     for (const auto &grid : {uniform_grid, graded_grid})
       {
-        const std::string text = ellipse_text(degree, grid),
-                          name = "degree " + std::to_string(degree)
+        const std::string text = ellipse_text(degree, grid);
+        const std::string name = "degree " + std::to_string(degree)
                                  + (grid == graded_grid ? ", graded, " : ", uniform, ");
-        check_ellipse(name + "translation by 3.7 h in 10 steps", text, 10, none, shift, 3e-3, 1e-5);
-        check_ellipse(name + "36 degrees in 5 steps", text, 5, rotation, zero, 3e-3, 1e-5);
-        check_ellipse(name + "compression by 10 % in 10 steps", text, 10, compression, zero, 3e-3,
-                      1e-5);
+        const double bound = degree == 1 ? 1e-3 : 1e-4, of_area = 2e-5;
+        check_ellipse(name + "translation by 3.7 h in 10 steps", text, 10, none, shift, bound,
+                      of_area);
+        check_ellipse(name + "36 degrees in 5 steps", text, 5, rotation, zero, bound, of_area);
+        check_ellipse(name + "compression by 10 % in 10 steps", text, 10, compression, zero, bound,
+                      of_area);
       }
+}
+
+// Quadratic increments are in the space of degree 2, with hanging nodes too.
+TEST(MovingLevelSets, FollowQuadraticMapsOnAGradedGrid)
+{
+  MovingBodies<2> it(ellipse_text(2, graded_grid));
+  EXPECT_TRUE(it.cut.grid.triangulation().has_hanging_nodes());
+  it.run(10, [](const Point<2> &x) {
+    const double a = x[0] - 2., b = x[1] - 2.;
+    return Tensor<1, 2>({0.01 * a * b - 0.008 * b * b, 0.01 * a * a + 0.005 * b});
+  });
+  const double error = it.contour_error(ellipse);
+  std::cout << "contour error/h " << error << '\n';
+  EXPECT_LT(error, 1e-3);
 }
 
 /** Contour and area error of a body under an increment that keeps the planes x = 0 and y = 0. */
@@ -289,16 +305,15 @@ TEST(MovingLevelSets, SlideAlongBoxFaces)
                    fine   = errors_at_planes(6, degree, centre, increment);
         std::cout << name << ", degree " << degree << ": contour error/h " << coarse.first << ", "
                   << fine.first << ", area " << coarse.second << ", " << fine.second;
-        if (centre == Point<2>())
-          if (name == "quarter disc, affine")
-            {
-              const double exact = numbers::PI / 4. * std::pow(1.012 * 0.99, 10);
-              std::cout << ", area error " << coarse.second / exact - 1. << ", "
-                        << fine.second / exact - 1.;
-              EXPECT_LT(std::abs(fine.second / exact - 1.), 1e-5);
-            }
+        if (name == "quarter disc, affine")
+          {
+            const double exact = numbers::PI / 4. * std::pow(1.012 * 0.99, 10);
+            std::cout << ", area error " << coarse.second / exact - 1. << ", "
+                      << fine.second / exact - 1.;
+            EXPECT_LT(std::abs(fine.second / exact - 1.), 1e-5);
+          }
         std::cout << '\n';
-        EXPECT_LT(fine.first, 3e-3);
+        EXPECT_LT(fine.first, 5e-4);
       }
 }
 
@@ -317,8 +332,8 @@ TEST(MovingLevelSets, ABallIn3D)
     = it.contour_error([&](const Point<3> &x) { return x.distance(centre) - 0.6; });
   const double of_volume = it.volume() / (volume * std::pow(0.98, 3)) - 1.;
   std::cout << "contour error/h " << error << ", volume error " << of_volume << '\n';
-  EXPECT_LT(error, 1e-2);
-  EXPECT_LT(std::abs(of_volume), 1e-4);
+  EXPECT_LT(error, 2e-3);
+  EXPECT_LT(std::abs(of_volume), 2e-5);
 }
 
 TEST(MovingLevelSets, TheLatticeFollowsTheBody)
@@ -355,11 +370,11 @@ TEST(MovingLevelSets, KeepPiecesAndRemoveIslands)
   EXPECT_LT(it.lattice().value(Point<2>(2.62, 2.01), 1), -0.2);
 
   // A spot that no cell knows of.
-  Lattice<2>       &phi  = it.cut.bodies.front().level_set;
-  Lattice<2>::Index spot = phi.lower();
-  for (unsigned int d = 0; d < 2; ++d)
-    spot[d] += 3;
-  phi(spot)          = -0.01;
+  Lattice<2>       &phi    = it.cut.bodies.front().level_set;
+  Lattice<2>::Index corner = phi.lower();
+  for (int i = 2; i < 6; ++i)
+    for (int j = 2; j < 6; ++j)
+      phi({{corner[0] + i, corner[1] + j}}) = -0.3;
   const auto motions = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.options);
   EXPECT_EQ(motions.front().n_islands, 1u);
   std::size_t n_far = 0;
@@ -418,6 +433,12 @@ seconds_since(const std::clock_t start)
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
+TEST(ReleaseMovingLevelSets, FullTurnIn50Steps)
+{
+  check_ellipse("360 degrees in 50 steps", ellipse_text(1, uniform_grid), 50,
+                turn<2>(numbers::PI / 25.), Tensor<1, 2>(), 5e-3, 5e-5);
+}
+
 TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
 {
   MovingBodies<2>     it(grid_text("0, 0", "4, 4", "1, 1", 8) + degree_text(1)
@@ -447,6 +468,20 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
   std::cout << n << " unknowns, " << phi.values().size() << " lattice nodes: " << 1e3 * all
             << " ms, of which extension " << 1e3 * extension << ", advection " << 1e3 * advection
             << ", reinitialisation " << 1e3 * reinitialisation << '\n';
+  EXPECT_LT(all, 1e-5 * n);
+}
+
+TEST(ReleaseMovingLevelSets, CostLessThanALinearSolveIn3D)
+{
+  MovingBodies<3>    it(grid_text("0, 0, 0", "2, 2, 2", "1, 1, 1", 6) + degree_text(1)
+                        + bodies_text({{"it", ball_text("1, 1, 1", 0.625)}})); // 40 cells across
+  const Vector       du    = it.nodal(affine<3>(turn<3>(0.02), Point<3>(1., 1., 1.)));
+  const std::clock_t start = std::clock();
+  move_level_sets(it.cut.bodies, *it.cut.fields, du, it.options);
+  const double   all = seconds_since(start);
+  const DofIndex n   = it.cut.fields->n_dofs();
+  std::cout << n << " unknowns, " << it.lattice().values().size() << " lattice nodes: " << 1e3 * all
+            << " ms\n";
   EXPECT_LT(all, 1e-5 * n);
 }
 } // namespace
