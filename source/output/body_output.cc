@@ -316,8 +316,8 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
             vertices.back() += samples.back().displacement
                                - start->deformation({piece.active_cell, vertex}).displacement;
         }
-      output.patches.push_back(make_patch<dim>(
-        vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
+      output.patches.push_back(
+        make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
       output.patches.back().patch_index = output.patches.size() - 1;
     }
   for (const RigidPiece &piece : rigid_pieces)

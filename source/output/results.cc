@@ -167,8 +167,37 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                               energies.contact, energies.dissipation, energies.plastic,
                               energies.external_work, energies.transfer, energies.balance_error()})
     values.push_back(energy);
-  if (is_first)
-    history->add_row(values);
+}
+
+template <int dim>
+void
+Results<dim>::gather_motion(const MotionRecord<dim> &motion)
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid())
+      for (const double value : {motion.volumes[b], motion.points[b].volume, motion.points[b].mass,
+                                 double(motion.points[b].count)})
+        history_row.push_back(value);
+  for (const TransferredForce<dim> &transfer : motion.transfers)
+    {
+      const auto jump = transfer.total_after - transfer.total_before;
+      for (unsigned int d = 0; d < dim; ++d)
+        history_row.push_back(jump[d]);
+    }
+  history_row.push_back(motion.n_islands);
+  history_row.push_back(motion.transfer_report.widened + motion.transfer_report.lowered);
+}
+
+template <int dim>
+void
+Results<dim>::write_history()
+{
+  AssertDimension(history_row.size(), history_names.size());
+  if (!is_first)
+    return;
+  if (!history)
+    history = std::make_unique<CsvTable>(directory + "/history.csv", history_names);
+  history->add_row(history_row);
 }
 
 template <int dim>
