@@ -114,12 +114,10 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto               ghosted  = equilibrium->with_ghosts(state.displacement);
-  const ContactMemory<dim> memory   = remember(*contact, communicator);
-  const Energies           energies = equilibrium->energies();
-  std::vector<double>      multipliers;
+  const auto ghosted = equilibrium->with_ghosts(state.displacement);
+  state.step_end     = {remember(*contact, communicator), {}, equilibrium->energies()};
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
-    multipliers.push_back(ghosted(fields->multiplier(i)));
+    state.step_end.multipliers.push_back(ghosted(fields->multiplier(i)));
   predictor.of_rigid.resize(bodies.size());
   MotionRecord<dim> record;
   record.transfer_report = step_start->transfer_report();
@@ -146,17 +144,16 @@ Simulation<dim>::move_geometry()
   state.points = std::move(points_at_end);
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
-  start_step(memory, multipliers, energies);
+  start_step();
   record.volumes   = bulk->volumes();
   record.points    = state.points.totals(bodies.size(), communicator);
-  record.transfers = transferred_forces(*contact, memory, state.contact, communicator);
+  record.transfers = transferred_forces(*contact, state.step_end.contact, state.contact, communicator);
   results->gather_motion(record);
 }
 
 template <int dim>
 void
-Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
-                            const std::vector<double> &multipliers, const Energies &energies)
+Simulation<dim>::start_step()
 {
   state.displacement = zero_displacement(*fields);
   for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -164,12 +161,13 @@ Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         if (fields->owned().is_element(fields->rigid_unknown(b) + m))
           state.displacement(fields->rigid_unknown(b) + m) = bodies[b].pose[m];
-  for (unsigned int i = 0; i < multipliers.size(); ++i)
+  const StepEnd<dim> &end = state.step_end;
+  for (unsigned int i = 0; i < end.multipliers.size(); ++i)
     if (fields->owned().is_element(fields->multiplier(i)))
-      state.displacement(fields->multiplier(i)) = multipliers[i];
+      state.displacement(fields->multiplier(i)) = end.multipliers[i];
   state.displacement.compress(dealii::VectorOperation::insert);
-  state.contact = recall(*contact, memory);
-  equilibrium->start_step(state.time, state.displacement, state.contact, energies);
+  state.contact = recall(*contact, end.contact);
+  equilibrium->start_step(state.time, state.displacement, state.contact, end.energies);
 }
 
 template <int dim>
@@ -214,8 +212,7 @@ Simulation<dim>::predicted(const double time) const
   template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                         \
     const;                                                                                                               \
   template void                              Simulation<dim>::move_geometry();                                           \
-  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                     \
-                                                                         const std::vector<double> &, const Energies &); \
+  template void                              Simulation<dim>::start_step(); \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

@@ -117,6 +117,15 @@ Results<dim>::probe_columns() const
 
 template <int dim>
 std::vector<std::string>
+Results<dim>::probe_table_columns() const
+{
+  std::vector<std::string> names = probe_columns();
+  names.insert(names.begin(), "time");
+  return names;
+}
+
+template <int dim>
+std::vector<std::string>
 Results<dim>::columns(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
 {
   std::vector<std::string>       names     = history_columns(equilibrium, contact);
@@ -254,14 +263,47 @@ Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, cons
   if (!is_first || probe_row.empty())
     return;
   if (!probe_table)
-    {
-      std::vector<std::string> names = probe_columns();
-      names.insert(names.begin(), "time");
-      probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", names);
-    }
+    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns());
   std::vector<double> values = probe_row;
   values.insert(values.begin(), record.time);
   probe_table->add_row(values);
+}
+
+template <int dim>
+bool
+Results<dim>::flush()
+{
+  const bool history_is_written = !history || history->flush();
+  return (!probe_table || probe_table->flush()) && history_is_written;
+}
+
+template <int dim>
+ResultsRecord
+Results<dim>::record() const
+{
+  return {body_records, contact_records, history ? history->n_rows() : 0,
+          probe_table ? probe_table->n_rows() : 0};
+}
+
+template <int dim>
+void
+Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equilibrium,
+                     const ContactPoints<dim> &contact)
+{
+  body_records    = record.bodies;
+  contact_records = record.contact;
+  if (!is_first)
+    return;
+  history = std::make_unique<CsvTable>(directory + "/history.csv",
+                                       history_columns(equilibrium, contact),
+                                       record.n_history_rows);
+  if (record.n_probe_rows > 0)
+    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),
+                                             record.n_probe_rows);
+  if (!body_records.empty())
+    write_pvd("bodies.pvd", body_records);
+  if (!contact_records.empty())
+    write_pvd("contact.pvd", contact_records);
 }
 
 template <int dim>

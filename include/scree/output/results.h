@@ -6,6 +6,9 @@
 #include <scree/output/csv_table.h>
 #include <scree/output/probes.h>
 
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,6 +36,19 @@ struct MotionRecord
   std::vector<TransferredForce<dim>> transfers; //!< of all pairs
   MovingLeastSquaresReport           transfer_report;
   unsigned int                       n_islands = 0;
+};
+
+/** What was written so far: a run that is resumed goes on after it. */
+struct ResultsRecord
+{
+  std::vector<std::pair<double, std::string>> bodies, contact; //!< of the PVD records
+  std::size_t                                 n_history_rows = 0, n_probe_rows = 0;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &bodies &contact &n_history_rows &n_probe_rows;
+  }
 };
 
 /**
@@ -82,10 +98,24 @@ public:
   /** Rows of the probes in probes.csv. */
   void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 
+  /** Writes rows of tables that the disk refused before; whether nothing is left. */
+  bool flush();
+
+  /** What is in the files; known to the first process. */
+  ResultsRecord record() const;
+
+  /**
+   * Cuts tables and PVD records off after what is recorded.
+   * @throws UserError if the tables do not have it
+   */
+  void resume(const ResultsRecord &record, const Equilibrium<dim> &equilibrium,
+              const ContactPoints<dim> &contact);
+
 private:
   std::vector<std::string> history_columns(const Equilibrium<dim>   &equilibrium,
                                            const ContactPoints<dim> &contact) const;
   std::vector<std::string> probe_columns() const;
+  std::vector<std::string> probe_table_columns() const;
   void                     write_pvd(const std::string                                 &name,
                                      const std::vector<std::pair<double, std::string>> &records) const;
   unsigned int             body_index(const std::string &name) const;
