@@ -26,13 +26,13 @@ struct Energies
   /** What a step's start and end can be compared in. */
   double stored() const
   {
-    return strain + boundary + contact;
+    return strain + ghost_penalty + boundary + contact;
   }
 
   /** external work and transfer minus all that was stored or dissipated */
   double balance_error() const
   {
-    return external_work + transfer - stored() - ghost_penalty - dissipation - plastic;
+    return external_work + transfer - stored() - dissipation - plastic;
   }
 };
 
@@ -191,6 +191,7 @@ private:
   Matrix newton_matrix;   //!< K
   Vector loads;           //!< f
   Vector dead_loads;      //!< tractions, pressures and body forces in f
+  Vector start_forces;    //!< of the ghost penalty on the displacement at the start of a step
   Vector internal_forces; //!< A u of the last residual()
   Vector contact_forces;  //!< -R_contact of the last residual()
   Vector applied_forces;  //!< on rigid bodies at the last residual()
