@@ -56,7 +56,10 @@ private:
   // sticks out.
   Gradient gradient_of_known(std::size_t node, unsigned int axis) const;
 
-  // The same; false if no neighbour there is known.
+  // Its mean over the known nodes around, if there is averaging.
+  Gradient mean_gradient_of_known(std::size_t node, unsigned int axis) const;
+
+  // The same at a node; false if no neighbour there is known.
   bool difference_of_known(std::size_t node, unsigned int axis, Gradient &result) const;
 
   // Numbers the gradients of the nodes to extend to and of the known ones that their stencils
@@ -67,6 +70,7 @@ private:
 
   const Lattice<dim>             &phi;
   const bool                      linear;
+  const int                       averaging;
   Values                         &v;
   std::vector<char>               has_value;
   std::array<std::ptrdiff_t, dim> stride;
@@ -80,6 +84,7 @@ Extension<dim, n_components>::Extension(const Lattice<dim> &phi, const std::vect
                                         const ExtensionOptions &options, Values &v)
     : phi(phi)
     , linear(options.extrapolation == Extrapolation::linear)
+    , averaging(options.averaging)
     , v(v)
     , has_value(known)
 {
@@ -221,6 +226,39 @@ Extension<dim, n_components>::gradient_of_known(const std::size_t  node,
 }
 
 template <int dim, std::size_t n_components>
+typename Extension<dim, n_components>::Gradient
+Extension<dim, n_components>::mean_gradient_of_known(const std::size_t  node,
+                                                     const unsigned int axis) const
+{
+  Gradient             result = gradient_of_known(node, axis);
+  const auto           at     = position(node);
+  std::array<int, dim> shift;
+  shift.fill(-averaging);
+  unsigned int n = 1;
+  while (shift[dim - 1] <= averaging)
+    {
+      std::ptrdiff_t to    = 0;
+      bool           other = false, is_known = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          to += shift[d] * stride[d];
+          other |= shift[d] != 0;
+          is_known &= exists(at, d, shift[d]);
+        }
+      Gradient around;
+      if (other && is_known && has_value[node + to] && difference_of_known(node + to, axis, around))
+        {
+          ++n;
+          for (std::size_t c = 0; c < n_components; ++c)
+            result[c] += (around[c] - result[c]) / n;
+        }
+      for (unsigned int d = 0; ++shift[d] > averaging && d + 1 < dim; ++d)
+        shift[d] = -averaging;
+    }
+  return result;
+}
+
+template <int dim, std::size_t n_components>
 void
 Extension<dim, n_components>::set_gradients_of_known()
 {
@@ -240,7 +278,8 @@ Extension<dim, n_components>::set_gradients_of_known()
               continue;
             gradients_at[reached] = gradients.size();
             for (unsigned int axis = 0; axis < dim; ++axis)
-              gradients.push_back(gradient_of_known(reached, axis));
+              gradients.push_back(averaging > 0 ? mean_gradient_of_known(reached, axis)
+                                                : gradient_of_known(reached, axis));
           }
     }
 }

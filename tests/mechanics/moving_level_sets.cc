@@ -275,7 +275,8 @@ errors_at_planes(const unsigned int level, const unsigned int degree, const Poin
   at.replace(at.find(' '), 1, ", ");
   MovingBodies<2> it(grid_text("0, 0", "2, 2", "1, 1", level) + degree_text(degree)
                      + bodies_text({{"it", ball_text(at, 1.)}}));
-  it.run(10, increment);
+  for (unsigned int i = 0; i < 10; ++i)
+    EXPECT_LE(it.step(increment).face_increment, 1e-12);
   return {it.contour_error([&](const Point<2> &x) { return x.distance(centre) - 1.; }),
           it.volume()};
 }
@@ -315,6 +316,41 @@ TEST(MovingLevelSets, SlideAlongBoxFaces)
         std::cout << '\n';
         EXPECT_LT(fine.first, 5e-4);
       }
+}
+
+// What moves through a face is told: here 0.02 through the upper one.
+TEST(MovingLevelSets, MotionThroughAFaceIsReported)
+{
+  MovingBodies<2>     it(grid_text("0, 0", "2, 2", "1, 1", 5) + degree_text(1)
+                         + bodies_text({{"it", box_text("0.5, 1", "1.2, 3")}}));
+  const BodyMotion<2> motion = it.step([](const Point<2> &x) {
+    return Tensor<1, 2>({0.05, -0.01 * x[1]});
+  });
+  EXPECT_NEAR(motion.face_increment, 0.02, 1e-12);
+}
+
+// Corners: what a turn of a square by 36 degrees costs, with rough increments.
+TEST(MovingLevelSets, ATurningSquareStaysInOnePiece)
+{
+  MovingBodies<2> it(uniform_grid + degree_text(1)
+                     + bodies_text({{"it", box_text("1.3, 1.4", "2.7, 2.6")}}));
+  const double    area = it.volume(), h = 1. / 32.;
+  const auto      map = affine<2>(turn<2>(numbers::PI / 25.), middle);
+  it.run(5, map);
+  const auto square = [](const Point<2> &x) {
+    const double a = std::abs(x[0] - 2.) - 0.7, b = std::abs(x[1] - 2.) - 0.6;
+    return std::hypot(std::max(a, 0.), std::max(b, 0.)) + std::min(std::max(a, b), 0.);
+  };
+  const double error = it.contour_error(square), of_area = it.volume() / area - 1.;
+  std::cout << "contour error/h " << error << ", area error " << of_area << '\n';
+  EXPECT_LT(error, 0.5);
+  EXPECT_LT(std::abs(of_area), 2e-3);
+  for (unsigned int i = 0; i < 5; ++i)
+    it.step([&](const Point<2> &x) {
+      const double wave = 0.05 * h * std::sin(40. * x[0] / h + i) * std::sin(31. * x[1] / h);
+      return map(x) + Tensor<1, 2>({wave, -wave});
+    });
+  EXPECT_LT(std::abs(it.volume() / area - 1.), 5e-3);
 }
 
 TEST(MovingLevelSets, ABallIn3D)

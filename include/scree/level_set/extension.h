@@ -23,6 +23,12 @@ struct ExtensionOptions
    * beyond it move and interpolate du |du| further. Infinite: all nodes.
    */
   double band = std::numeric_limits<double>::infinity();
+  /**
+   * Linear: G at a known node is the mean over the known nodes up to so many spacings away along
+   * the axes. A jagged v, of which finite element fields have a little in cut cells, is not
+   * continued with wild gradients then; affine fields stay exact.
+   */
+  int averaging = 0;
 };
 
 /** What an extension did. */
