@@ -273,7 +273,7 @@ continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
                   const dealii::BoundingBox<dim> &box, NodalVectors<dim> &v)
 {
   ExtensionOptions options;
-  options.averaging         = 2;
+  options.fit               = 2;
   const NodeBox<dim> inside = nodes_inside(lattice, box);
   if (inside.n_nodes == lattice.n_nodes())
     {

@@ -24,11 +24,11 @@ struct ExtensionOptions
    */
   double band = std::numeric_limits<double>::infinity();
   /**
-   * Linear: G at a known node is the mean over the known nodes up to so many spacings away along
-   * the axes. A jagged v, of which finite element fields have a little in cut cells, is not
-   * continued with wild gradients then; affine fields stay exact.
+   * Linear: G at a known node is that of the affine function that fits the known nodes up to so
+   * many spacings away along the axes best (least squares); 0: differences. A jagged v, of which
+   * finite element fields have a little in cut cells, is not continued with wild gradients then.
    */
-  int averaging = 0;
+  int fit = 0;
 };
 
 /** What an extension did. */
