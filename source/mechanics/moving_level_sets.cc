@@ -35,7 +35,7 @@ for_each_node(const Lattice<dim> &lattice, const Index<dim> &first, const Index<
   Index<dim> index = first;
   while (index[dim - 1] < end[dim - 1])
     {
-      const std::size_t row = lattice.offset(index) - (index[0] - first[0]);
+      const std::size_t row = lattice.offset(index);
       for (index[0] = first[0]; index[0] < end[0]; ++index[0])
         f(index, row + (index[0] - first[0]));
       for (unsigned int d = 0; index[d] == end[d] && d + 1 < dim; ++d)
