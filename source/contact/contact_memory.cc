@@ -18,8 +18,7 @@ namespace
 constexpr double reach_in_cells  = 2.;
 constexpr double smallest_cosine = 0.5; // between the normals of neighbours
 
-/** R v for v normal to `from`, R the smallest rotation that turns the unit vector `from` to `to`.
- */
+/** R v for v normal to `from`, R the smallest rotation of the unit vector `from` to `to`. */
 template <int dim>
 Tensor<1, dim>
 turned(const Tensor<1, dim> &v, const Tensor<1, dim> &from, const Tensor<1, dim> &to)

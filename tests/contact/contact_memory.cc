@@ -1,5 +1,4 @@
-// What surface points remember: transfer between point sets on given surfaces, motion of the
-// surface.
+// What surface points remember: transfer between point sets, motion of the surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
