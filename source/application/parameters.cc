@@ -65,6 +65,26 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection contact_section = root.subsection("Contact", "Laws between the bodies.");
   contact.declare(contact_section, body_names);
 
+  ParameterSection moving_section
+    = root.subsection("Moving geometry", "Whether bodies move through the grid.");
+  moving.declare(moving_section);
+
+  for (const auto &body : bodies)
+    {
+      const auto material = materials.find(body.material);
+      if (material == materials.end())
+        continue;
+      const std::string &law  = material->second.law;
+      const std::string  uses = "the body '" + body.name + "' is of the law '" + law + "'";
+      if (!moving.is_moving && needs_moving_geometry(law))
+        moving_section.error("Update", uses + ", which needs a moving geometry",
+                             "set Update = every step, or choose Law = linear elastic");
+      if (is_plastic(law) && degree == 1)
+        discretization.error("Degree", uses + ": plastic flow keeps the volume, which locks "
+                                              "elements of degree 1",
+                             "set Degree = 2");
+    }
+
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
 

@@ -13,29 +13,6 @@
 
 namespace scree
 {
-namespace
-{
-/** Lattice nodes coincide with the support points of degree k on the finest cells. */
-template <int dim>
-LatticeFrame<dim>
-lattice_frame(const BackgroundGrid<dim> &grid, const unsigned int degree)
-{
-  return {grid.grid_parameters().lower, grid.finest_size() / degree, grid.box()};
-}
-
-/** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
-template <int dim>
-double
-lattice_margin(const Parameters<dim> &parameters, const BackgroundGrid<dim> &grid)
-{
-  const auto  &p        = parameters.grid;
-  const double coarsest = p.refinement == GridRefinement::uniform ? p.cell_size(p.finest_level)
-                                                                  : p.cell_size(p.coarsest_level);
-  return std::max((parameters.contact.shift + 2.) * grid.finest_size(), 2. * coarsest);
-}
-
-} // namespace
-
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
                             const MPI_Comm communicator)
@@ -43,7 +20,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
     , communicator(communicator)
     , log(communicator, output_directory + "/log.txt")
     , directory(output_directory)
-    , grid(parameters.grid, communicator)
+    , grid(std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator))
     , step_control(parameters.time)
 {
   set_up();
@@ -60,64 +37,113 @@ Simulation<dim>::set_up()
 
   {
     const Timings::Scope scope(timings, "geometry");
-    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(grid, parameters.degree),
-                              lattice_margin(parameters, grid));
+    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(), lattice_margin());
   }
+  for (unsigned int b = 0; b < bodies.size() && is_moving(); ++b)
+    if (!bodies[b].is_rigid())
+      bodies[b].law
+        = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
 
-  const auto pairs = find_pairs();
-  {
-    const Timings::Scope                               scope(timings, "grid");
-    std::vector<std::pair<unsigned int, unsigned int>> indices;
-    for (const ContactPair &pair : pairs)
-      indices.emplace_back(pair.a, pair.b);
-    grid.refine(bodies, indices);
-  }
-
-  {
-    const Timings::Scope scope(timings, "fields");
-    level_set_nodes = std::make_unique<LevelSetNodes<dim>>(grid, parameters.degree);
-    fields          = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies,
-                                           BoundaryTerms<dim>::n_multipliers(bodies));
-  }
-
-  {
-    const Timings::Scope scope(timings, "quadrature");
-    quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
-    bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty);
-    boundary_terms
-      = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies);
-  }
-
-  {
-    const Timings::Scope scope(timings, "contact search");
-    contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
-                                                   parameters.contact.shift * grid.finest_size());
-  }
-
-  {
-    const Timings::Scope scope(timings, "linear assembly");
-    equilibrium
-      = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
-  }
-
+  pairs = find_pairs();
+  discretise();
   was_closed.assign(contact->points().size(), false);
-  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
-  linear_solver->set_near_null_space(equilibrium->rigid_motions());
-  linear_solver->set_border(fields->n_trailing());
-  results = std::make_unique<Results<dim>>(directory, *fields, *level_set_nodes, bodies,
-                                           parameters.output.probes);
-  state   = initial_state(*fields, *contact);
+  results = std::make_unique<Results<dim>>(directory, bodies, parameters.output.probes);
+  results->set_discretization(*fields, *level_set_nodes);
+  state.time         = 0.;
+  state.displacement = zero_displacement(*fields);
+  state.contact      = contact->initial_history();
+  if (is_moving())
+    start_step({}, {}, {});
   // Probes outside their bodies are told before anything is computed.
   for (const auto &probe : parameters.output.probes)
     results->sample_probe(probe, *bulk, equilibrium->with_ghosts(state.displacement));
 }
 
 template <int dim>
+void
+Simulation<dim>::discretise()
+{
+  {
+    const Timings::Scope scope(timings, "grid");
+    // What refers to the grid ends before it.
+    condensed_solver.reset();
+    equilibrium.reset();
+    contact.reset();
+    boundary_terms.reset();
+    bulk.reset();
+    step_start.reset();
+    quadrature.reset();
+    fields.reset();
+    level_set_nodes.reset();
+    if (is_moving() && step_control.n_accepted() > 0
+        && parameters.grid.refinement == GridRefinement::contact)
+      grid = std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator);
+    std::vector<std::pair<unsigned int, unsigned int>> indices;
+    for (const ContactPair &pair : pairs)
+      indices.emplace_back(pair.a, pair.b);
+    grid->refine(bodies, indices);
+  }
+  {
+    const Timings::Scope scope(timings, "fields");
+    level_set_nodes = std::make_unique<LevelSetNodes<dim>>(*grid, parameters.degree);
+    fields          = std::make_unique<Fields<dim>>(*grid, *level_set_nodes, bodies,
+                                           BoundaryTerms<dim>::n_multipliers(bodies));
+  }
+  {
+    const Timings::Scope scope(timings, "quadrature");
+    quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
+  }
+  if (is_moving())
+    set_up_points();
+  {
+    const Timings::Scope scope(timings,
+                               is_moving() ? "history at quadrature points" : "quadrature");
+    bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty,
+                                       step_start.get());
+    boundary_terms = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature,
+                                                          bodies, step_start.get());
+  }
+  {
+    const Timings::Scope scope(timings, "contact search");
+    contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
+                                                   parameters.contact.shift * grid->finest_size());
+  }
+  {
+    const Timings::Scope scope(timings, "linear assembly");
+    equilibrium
+      = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
+  }
+  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
+  linear_solver->set_near_null_space(equilibrium->rigid_motions());
+  linear_solver->set_border(fields->n_trailing());
+}
+
+template <int dim>
+LatticeFrame<dim>
+Simulation<dim>::lattice_frame() const
+{
+  return {parameters.grid.lower, grid->finest_size() / parameters.degree, grid->box()};
+}
+
+template <int dim>
+double
+Simulation<dim>::lattice_margin() const
+{
+  const auto  &p        = parameters.grid;
+  const double coarsest = p.refinement == GridRefinement::uniform ? p.cell_size(p.finest_level)
+                                                                  : p.cell_size(p.coarsest_level);
+  return std::max((parameters.contact.shift + 2.) * grid->finest_size(), 2. * coarsest);
+}
+
+template <int dim>
 std::vector<ContactPair>
 Simulation<dim>::find_pairs() const
 {
+  // On a moving geometry any two bodies may meet in the course of the run.
+  const double reach = is_moving() ? grid->box().side_length(0) + grid->box().side_length(1)
+                                       + grid->box().side_length(dim - 1)
+                                   : 2. * parameters.contact.shift * grid->finest_size();
   std::vector<ContactPair> pairs;
-  const double             reach = 2. * parameters.contact.shift * grid.finest_size();
   for (const auto &[a, b] : candidate_pairs(bodies, reach))
     {
       const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
@@ -143,6 +169,9 @@ Simulation<dim>::run()
         step_control.accept(record.newton_iterations);
         write_results();
         report_step(wall.wall_time());
+        if (is_moving())
+          move_geometry();
+        results->write_history();
       }
     else
       {
@@ -170,16 +199,26 @@ Simulation<dim>::run()
 
 template <int dim>
 typename Equilibrium<dim>::Vector
+Simulation<dim>::extrapolated(const double time) const
+{
+  if (is_moving())
+    return predicted(time);
+  auto result = state.displacement;
+  result.add(time - state.time, last_increment);
+  return result;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Vector
 Simulation<dim>::first_guess(const double time)
 {
   using Vector     = typename Equilibrium<dim>::Vector;
   Vector unchanged = state.displacement;
   equilibrium->set_time(time, unchanged);
   std::vector<Vector> guesses = {unchanged};
-  if (last_increment.size() != 0)
+  if (is_moving() ? predictor.step_size > 0. : last_increment.size() != 0)
     {
-      guesses.push_back(state.displacement);
-      guesses.back().add(time - state.time, last_increment);
+      guesses.push_back(extrapolated(time));
       equilibrium->set_prescribed(guesses.back());
     }
   if (std::any_of(bodies.begin(), bodies.end(),
@@ -231,9 +270,29 @@ Simulation<dim>::solve_step(const double time)
   for (const auto &free : equilibrium->free_bodies())
     if (lost_contact(free.body))
       throw_slides_away(free.body);
+  if (is_moving())
+    {
+      const Timings::Scope scope(timings, "material points");
+      const std::string    reason = why_too_large(u);
+      points_at_end               = moved_points(u);
+      if (!reason.empty())
+        {
+          log.line("Step " + std::to_string(step) + " to time " + short_number(time)
+                   + " is too large: " + reason);
+          return false;
+        }
+    }
   equilibrium->accept(u, state.contact);
-  require_contact_within_reach(*contact, parameters.contact.shift * grid.finest_size(),
+  require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
                                communicator);
+  if (is_moving())
+    {
+      predictor.step_size = time - state.time;
+      state.displacement  = u;
+      state.contact       = contact->current_history();
+      state.time          = time;
+      return true;
+    }
   for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
                                                   equilibrium->largest_displacements(u)))
     if (warned_pairs.insert(pair).second)
@@ -285,7 +344,8 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double
                                      LinearSolver::Vector &du)
 {
   const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  if (linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
+  if (equilibrium->is_linear_but_for_contact()
+      && linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
       && !equilibrium->has_free_rigid_bodies())
     try
       {
@@ -325,7 +385,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
     const auto solved = solve_linear_system(r, tolerance, du);
     record.linear_iterations += solved.iterations;
-    equilibrium->shorten(du, grid.finest_size());
+    equilibrium->shorten(du, grid->finest_size());
   };
   hooks.reference = [&]() {
     return std::max(equilibrium->force_scale(),
@@ -361,7 +421,7 @@ Simulation<dim>::write_results()
   const bool           is_last = step_control.finished();
   const auto           is_due
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
-  results->write_history(record, *equilibrium, *contact, *bulk, state.displacement);
+  results->gather_history(record, *equilibrium, *contact, *bulk, state.displacement);
   results->write_probes(record, *bulk, ghosted);
   if (is_due(output.fields_every))
     results->write_fields(record, *bulk, ghosted);
@@ -413,7 +473,7 @@ Simulation<dim>::contact_cells() const
           closed.back()[d] = point.position[d];
         closed.back()[dim] = point.cell_size;
       }
-  std::vector<bool>  result(grid.n_owned_cells(), false);
+  std::vector<bool>  result(grid->n_owned_cells(), false);
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, closed))
     for (const auto &point : of_rank)
@@ -422,7 +482,7 @@ Simulation<dim>::contact_cells() const
           dealii::Point<dim> position;
           for (unsigned int d = 0; d < dim; ++d)
             position[d] = point[d] + ((corner >> d) & 1u ? 0.5 : -0.5) * point[dim];
-          const auto location = grid.locate(position);
+          const auto location = grid->locate(position);
           if (location.rank == rank)
             result[location.local_cell] = true;
         }

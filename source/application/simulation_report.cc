@@ -42,8 +42,8 @@ Simulation<dim>::report_set_up()
 {
   if (!parameters.title.empty())
     log.line(parameters.title);
-  log.line("Grid: " + std::to_string(grid.triangulation().n_global_active_cells())
-           + " cells, finest edge " + short_number(grid.finest_size()));
+  log.line("Grid: " + std::to_string(grid->triangulation().n_global_active_cells())
+           + " cells, finest edge " + short_number(grid->finest_size()));
   log.line("Unknowns: " + std::to_string(fields->n_dofs()) + " of degree "
            + std::to_string(parameters.degree) + " in " + std::to_string(fields->n_fields())
            + " field(s)");
@@ -61,13 +61,13 @@ Simulation<dim>::report_set_up()
               "the body '" + bodies[b].name + "' has no volume on the grid",
               "raise Grid/Finest level or check the shape: the body must be wider than a few "
               "cells of edge "
-                + short_number(grid.finest_size()));
+                + short_number(grid->finest_size()));
       double smallest = std::numeric_limits<double>::max();
       for (unsigned int d = 0; d < dim; ++d)
         smallest = std::min(smallest, bodies[b].box.side_length(d));
-      if (smallest < 4. * grid.finest_size())
+      if (smallest < 4. * grid->finest_size())
         log.line("Warning: body " + bodies[b].name + " is only "
-                 + short_number(smallest / grid.finest_size()) + " finest cells wide");
+                 + short_number(smallest / grid->finest_size()) + " finest cells wide");
     }
   const auto n_points  = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
   const auto summaries = summarise_contact(*contact, communicator);
@@ -79,7 +79,7 @@ Simulation<dim>::report_set_up()
                + (std::isnan(summaries[p].minimum_gap)
                     ? ", farther apart than twice the shift"
                     : ", initial gap " + short_number(summaries[p].minimum_gap)));
-      if (summaries[p].minimum_gap < -1e-6 * grid.finest_size())
+      if (summaries[p].minimum_gap < -1e-6 * grid->finest_size())
         log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
                  + short_number(summaries[p].max_penetration));
     }
@@ -98,7 +98,7 @@ Simulation<dim>::check()
   results->write_contact(record, *contact);
   results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
   write_regions_csv(boundary_terms->regions(), bodies, communicator, directory);
-  dealii::GridOut().write_mesh_per_processor_as_vtu(grid.triangulation(), directory + "/grid");
+  dealii::GridOut().write_mesh_per_processor_as_vtu(grid->triangulation(), directory + "/grid");
   log.line("The input is fine; nothing was computed. Set-up written to " + directory);
   plot();
 }

@@ -97,11 +97,11 @@ check_use(const BodyParameters<dim> &body, const bool is_rigid)
 /** The motion of a rigid body, with a coarse lattice of its whole shape for pictures. */
 template <int dim>
 std::shared_ptr<const RigidBody<dim>>
-make_rigid_body(const BodyParameters<dim> &body, const Shape<dim> &shape,
+make_rigid_body(const BodyParameters<dim> &body, const std::shared_ptr<const Shape<dim>> &shape,
                 const dealii::BoundingBox<dim> &clipped_box)
 {
   constexpr unsigned int         cells_of_picture = dim == 2 ? 80 : 32;
-  const dealii::BoundingBox<dim> whole            = shape.bounding_box();
+  const dealii::BoundingBox<dim> whole            = shape->bounding_box();
   // Unbounded directions end where the body is clipped.
   constexpr double   far = 0.01 * Shape<dim>::unbounded;
   dealii::Point<dim> lower, upper;
@@ -122,8 +122,8 @@ make_rigid_body(const BodyParameters<dim> &body, const Shape<dim> &shape,
     }
   Lattice<dim> picture({lower, spacing, box}, first, n_nodes);
   for (std::size_t i = 0; i < picture.values().size(); ++i)
-    picture.values()[i] = shape.signed_distance(picture.node(picture.index(i)));
-  return std::make_shared<RigidBody<dim>>(body.motion, box, picture);
+    picture.values()[i] = shape->signed_distance(picture.node(picture.index(i)));
+  return std::make_shared<RigidBody<dim>>(body.motion, box, picture, shape);
 }
 } // namespace
 
@@ -141,16 +141,21 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       const auto &material = materials.at(body.material);
       const bool  is_rigid = material == nullptr;
       check_use(body, is_rigid);
-      const ShapePointer<dim>        shape      = make_shape<dim>(body.shape);
-      const LatticeFrame<dim>       &body_frame = is_rigid ? wide_frame : frame;
+      const std::shared_ptr<const Shape<dim>> shape      = make_shape<dim>(body.shape);
+      const LatticeFrame<dim>                &body_frame = is_rigid ? wide_frame : frame;
       const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
-      bodies.push_back(Body<dim>{
-        body.name, body.path, make_lattice(*shape, body_frame, margin, body.path + "/Shape"), box,
-        material, is_rigid ? make_rigid_body(body, *shape, box) : nullptr,
-        Expression<dim>(body.body_force, dim, body.path + "/Body force"), conditions});
+      bodies.push_back(Body<dim>{body.name,
+                                 body.path,
+                                 make_lattice(*shape, body_frame, margin, body.path + "/Shape"),
+                                 box,
+                                 material,
+                                 is_rigid ? make_rigid_body(body, shape, box) : nullptr,
+                                 Expression<dim>(body.body_force, dim, body.path + "/Body force"),
+                                 conditions,
+                                 {}});
     }
   return bodies;
 }

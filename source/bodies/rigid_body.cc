@@ -184,11 +184,13 @@ MotionParameters<dim>::declare(ParameterSection &section)
 
 template <int dim>
 RigidBody<dim>::RigidBody(const MotionParameters<dim>    &parameters,
-                          const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture)
+                          const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture,
+                          const std::shared_ptr<const Shape<dim>> &shape)
     : reference_point(box.center())
     , radius(0.)
     , box(box)
     , picture(picture)
+    , shape(shape)
     , path(parameters.path)
 {
   if (!parameters.reference_point.empty())

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -57,6 +58,29 @@ GhostPenalty<dim>::matrix(const GhostFace &face)
               .first;
   dealii::FullMatrix<double> result = found->second;
   result *= std::pow(cell.size, dim - 2);
+  return result;
+}
+
+template <int dim>
+typename GhostPenalty<dim>::Block
+GhostPenalty<dim>::block(const GhostFace &face)
+{
+  const unsigned int        n     = fields.basis.n_nodes;
+  const auto                jumps = matrix(face);
+  Block                     result{{fields.nodes(face.cell), fields.nodes(face.cell) + n}, {}};
+  std::vector<unsigned int> position(2 * n);
+  for (unsigned int i = 0; i < 2 * n; ++i)
+    {
+      const DofIndex node = i < n ? fields.nodes(face.cell)[i] : fields.nodes(face.neighbor)[i - n];
+      const auto     found = std::find(result.nodes.begin(), result.nodes.end(), node);
+      position[i]          = found - result.nodes.begin();
+      if (found == result.nodes.end())
+        result.nodes.push_back(node);
+    }
+  result.matrix.reinit(result.nodes.size(), result.nodes.size());
+  for (unsigned int i = 0; i < 2 * n; ++i)
+    for (unsigned int j = 0; j < 2 * n; ++j)
+      result.matrix(position[i], position[j]) += jumps(i, j);
   return result;
 }
 

@@ -68,8 +68,8 @@ trimmed(const Lattice<dim> &lattice, const double margin)
 } // namespace
 
 template <int dim>
-Lattice<dim>
-make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
+std::optional<Lattice<dim>>
+find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
              const std::string &where)
 {
   const double           width = std::max(margin, 6 * frame.spacing);
@@ -79,17 +79,16 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
     {
       lower[d] = std::max(box.lower_bound(d), frame.box.lower_bound(d));
       upper[d] = std::min(box.upper_bound(d), frame.box.upper_bound(d));
-      require(lower[d] < upper[d], where, "the shape lies outside the background grid",
-              "move it, or enlarge the grid");
+      if (!(lower[d] < upper[d]))
+        return {};
       lower[d] -= width;
       upper[d] += width;
     }
 
   Lattice<dim> lattice = sampled(shape, frame, node_box(frame, lower, upper), width);
-  require(std::any_of(lattice.values().begin(), lattice.values().end(),
-                      [](const double value) { return value < 0; }),
-          where, "the shape contains no node of the background grid",
-          "it is empty, outside the grid, or needs smaller cells");
+  if (std::none_of(lattice.values().begin(), lattice.values().end(),
+                   [](const double value) { return value < 0; }))
+    return {};
   const NodeBox<dim> needed = trimmed(lattice, width);
   if (needed.n_nodes != lattice.n_nodes())
     lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
@@ -99,8 +98,28 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
   return lattice;
 }
 
-template Lattice<2> make_lattice(const Shape<2> &, const LatticeFrame<2> &, double,
-                                 const std::string &);
-template Lattice<3> make_lattice(const Shape<3> &, const LatticeFrame<3> &, double,
-                                 const std::string &);
+template <int dim>
+Lattice<dim>
+make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
+             const std::string &where)
+{
+  const BoundingBox<dim> box = shape.bounding_box();
+  for (unsigned int d = 0; d < dim; ++d)
+    require(box.lower_bound(d) < frame.box.upper_bound(d)
+              && frame.box.lower_bound(d) < box.upper_bound(d),
+            where, "the shape lies outside the background grid", "move it, or enlarge the grid");
+  std::optional<Lattice<dim>> lattice = find_lattice(shape, frame, margin, where);
+  require(lattice.has_value(), where, "the shape contains no node of the background grid",
+          "it is empty, outside the grid, or needs smaller cells");
+  return *std::move(lattice);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template Lattice<dim> make_lattice(const Shape<dim> &, const LatticeFrame<dim> &, double,        \
+                                     const std::string &);                                         \
+  template std::optional<Lattice<dim>> find_lattice(const Shape<dim> &, const LatticeFrame<dim> &, \
+                                                    double, const std::string &);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
 } // namespace scree

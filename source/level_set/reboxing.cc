@@ -25,16 +25,41 @@ node_box(const LatticeFrame<dim> &frame, const Point<dim> &lower, const Point<di
   return result;
 }
 
+namespace
+{
+// A box that clips nothing.
+template <int dim>
+BoundingBox<dim>
+everywhere(const Lattice<dim> &lattice)
+{
+  BoundingBox<dim> box = lattice.box();
+  box.extend(2 * lattice.spacing());
+  return box;
+}
+} // namespace
+
 template <int dim>
 NodeBox<dim>
 node_box_of_body(const Lattice<dim> &lattice, const double margin)
 {
-  Point<dim> lower = lattice.box().get_boundary_points().second,
-             upper = lattice.box().get_boundary_points().first;
+  return node_box_of_body(lattice, margin, everywhere(lattice));
+}
+
+template <int dim>
+NodeBox<dim>
+node_box_of_body(const Lattice<dim> &lattice, const double margin, const BoundingBox<dim> &box)
+{
+  const double h        = lattice.spacing();
+  Point<dim>   lower    = lattice.box().get_boundary_points().second,
+             upper      = lattice.box().get_boundary_points().first;
+  BoundingBox<dim> wide = box;
+  wide.extend(1e-6 * h);
   for (std::size_t i = 0; i < lattice.values().size(); ++i)
     if (lattice.values()[i] < 0)
       {
         const Point<dim> x = lattice.node(lattice.index(i));
+        if (!wide.point_inside(x))
+          continue;
         for (unsigned int d = 0; d < dim; ++d)
           {
             lower[d] = std::min(lower[d], x[d]);
@@ -44,8 +69,10 @@ node_box_of_body(const Lattice<dim> &lattice, const double margin)
   for (unsigned int d = 0; d < dim; ++d)
     {
       Assert(lower[d] <= upper[d], ExcMessage("The lattice has no negative node."));
-      lower[d] -= margin + lattice.spacing();
-      upper[d] += margin + lattice.spacing();
+      lower[d] = lower[d] < box.lower_bound(d) + 1.5 * h ? lattice.box().lower_bound(d)
+                                                         : lower[d] - margin - h;
+      upper[d] = upper[d] > box.upper_bound(d) - 1.5 * h ? lattice.box().upper_bound(d)
+                                                         : upper[d] + margin + h;
     }
   return node_box(lattice.frame(), lower, upper);
 }
@@ -76,8 +103,15 @@ template <int dim>
 bool
 follow_body(Lattice<dim> &lattice, const double margin)
 {
-  const NodeBox<dim> narrow = node_box_of_body(lattice, margin),
-                     wide   = node_box_of_body(lattice, 2 * margin + 4 * lattice.spacing());
+  return follow_body(lattice, margin, everywhere(lattice));
+}
+
+template <int dim>
+bool
+follow_body(Lattice<dim> &lattice, const double margin, const BoundingBox<dim> &box)
+{
+  const NodeBox<dim> narrow = node_box_of_body(lattice, margin, box),
+                     wide   = node_box_of_body(lattice, 2 * margin + 4 * lattice.spacing(), box);
   bool fits                 = true;
   for (unsigned int d = 0; d < dim; ++d)
     {
@@ -86,16 +120,18 @@ follow_body(Lattice<dim> &lattice, const double margin)
       fits &= first >= wide.lower[d] && end <= wide.lower[d] + wide.n_nodes[d];
     }
   if (!fits)
-    lattice = reboxed(lattice, node_box_of_body(lattice, 1.5 * margin));
+    lattice = reboxed(lattice, node_box_of_body(lattice, 1.5 * margin, box));
   return !fits;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                  \
-  template NodeBox<dim> node_box(const LatticeFrame<dim> &, const Point<dim> &, \
-                                 const Point<dim> &);                           \
-  template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double);         \
-  template Lattice<dim> reboxed(const Lattice<dim> &, const NodeBox<dim> &);    \
-  template bool         follow_body(Lattice<dim> &, double);
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template NodeBox<dim> node_box(const LatticeFrame<dim> &, const Point<dim> &,                   \
+                                 const Point<dim> &);                                             \
+  template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double);                           \
+  template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double, const BoundingBox<dim> &); \
+  template Lattice<dim> reboxed(const Lattice<dim> &, const NodeBox<dim> &);                      \
+  template bool         follow_body(Lattice<dim> &, double);                                      \
+  template bool         follow_body(Lattice<dim> &, double, const BoundingBox<dim> &);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

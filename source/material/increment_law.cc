@@ -7,7 +7,6 @@
 #include <scree/material/small_strain.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 namespace scree
@@ -49,38 +48,19 @@ const std::vector<Registration<dim>> &
 registered_laws()
 {
   static const std::vector<Registration<dim>> laws = {
-    {"linear elastic", false, plastic<dim, SmallStrain>},
+    {"linear elastic", false, elastic<dim, SmallStrain>},
+    {"linear elastic incremental", false, elastic<dim, SmallStrainIncremental>},
     {"linear elastic rotated", false, plastic<dim, SmallStrainRotated>},
     {"Hencky", false, elastic<dim, Hencky>},
     {"neo-Hookean", false, elastic<dim, NeoHookean>},
     {"Saint Venant-Kirchhoff", false, elastic<dim, SaintVenantKirchhoff>},
-    {"J2 small strain", true, plastic<dim, SmallStrain>},
+    {"J2 small strain", true, plastic<dim, SmallStrainPlasticity>},
     {"J2 small strain rotated", true, plastic<dim, SmallStrainRotated>},
     {"J2", true, plastic<dim, HenckyPlasticity>},
   };
   return laws;
 }
 
-Hardening
-checked_hardening(const MaterialParameters &parameters, const bool is_plastic)
-{
-  const std::string where = "Materials";
-  if (!is_plastic)
-    {
-      require(std::isnan(parameters.yield_stress) && std::isnan(parameters.hardening_modulus),
-              where,
-              "the law '" + parameters.law + "' has no yield stress and no hardening modulus",
-              "remove them or choose a law called J2");
-      return {};
-    }
-  // The negated comparisons of require() are also true for NaN.
-  require(parameters.yield_stress > 0, where, "Yield stress must be set to a number greater than 0",
-          "give it in force per area");
-  require(parameters.hardening_modulus >= 0, where,
-          "Hardening modulus must be set to a number that is not negative",
-          "give it in force per area, 0 for perfect plasticity");
-  return {parameters.yield_stress, parameters.hardening_modulus};
-}
 } // namespace
 
 template <int dim>
@@ -88,22 +68,44 @@ IncrementStart
 IncrementLaw<dim>::start(const PointHistory<dim> &history) const
 {
   IncrementStart result;
-  result.alpha                   = std::max(0., history.alpha);
-  const Tensor<2, 3> internal    = Tensor<2, 3>(history.internal);
-  const Tensor<2, 3> deformation = embed<dim>(history.deformation_gradient);
+  result.alpha                = std::max(0., history.alpha);
+  result.deformation_gradient = embed<dim>(history.deformation_gradient);
+  const Tensor<2, 3> &F       = result.deformation_gradient;
+  const Tensor<2, 3>  internal(history.internal);
   switch (this->internal())
     {
     case InternalTensor::none:
-      result.tensor       = deformation * transpose(deformation);
-      result.volume_ratio = determinant(deformation);
+      result.tensor = F * transpose(F);
       break;
-    case InternalTensor::logarithmic_strain:
-      result.tensor       = exponential(internal);
-      result.volume_ratio = determinant(deformation);
+    case InternalTensor::plastic_metric:
+      result.tensor = F * exponential(internal) * transpose(F);
       break;
+    case InternalTensor::plastic_strain:
     case InternalTensor::cauchy_stress:
       result.tensor = internal;
       break;
+    }
+  if (this->internal() != InternalTensor::cauchy_stress)
+    result.volume_ratio = determinant(F);
+  return result;
+}
+
+template <int dim>
+PointHistory<dim>
+IncrementLaw<dim>::finish(const PointHistory<dim> &history, const Tensor<2, dim> &F_D,
+                          const IncrementResponse<dim> &response) const
+{
+  PointHistory<dim> result    = history;
+  result.deformation_gradient = F_D * history.deformation_gradient;
+  result.alpha                = response.alpha;
+  if (this->internal() != InternalTensor::plastic_metric)
+    result.internal = response.internal;
+  else if (response.alpha > std::max(0., history.alpha))
+    {
+      const Tensor<2, 3> inverse = invert(embed<dim>(result.deformation_gradient));
+      const Tensor<2, 3> metric
+        = inverse * exponential(Tensor<2, 3>(response.internal)) * transpose(inverse);
+      result.internal = symmetrize(2. * LogarithmicStrain(eigensystem(metric)).value());
     }
   return result;
 }
@@ -117,6 +119,15 @@ increment_laws()
   return names;
 }
 
+bool
+is_plastic(const std::string &law)
+{
+  for (const auto &registration : registered_laws<2>())
+    if (registration.name == law)
+      return registration.is_plastic;
+  return false;
+}
+
 template <int dim>
 std::unique_ptr<IncrementLaw<dim>>
 make_increment_law(const MaterialParameters &parameters)
@@ -124,9 +135,11 @@ make_increment_law(const MaterialParameters &parameters)
   for (const auto &law : registered_laws<dim>())
     if (law.name == parameters.law)
       {
-        check_elastic_constants(parameters);
+        check_constants(parameters);
         return law.make(IsotropicModuli::from_young(parameters.young, parameters.poisson),
-                        checked_hardening(parameters, law.is_plastic));
+                        law.is_plastic
+                          ? Hardening{parameters.yield_stress, parameters.hardening_modulus}
+                          : Hardening());
       }
   std::string names;
   for (const std::string &name : increment_laws())

@@ -1,38 +1,18 @@
 #include <scree/base/exceptions.h>
+#include <scree/material/increment_law.h>
 #include <scree/material/linear_elastic.h>
 #include <scree/material/material.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace scree
 {
 namespace
 {
-const std::string rigid_law = "rigid";
-
-template <int dim>
-using Factory = std::function<std::unique_ptr<Material<dim>>(const MaterialParameters &)>;
-
-template <class Law, int dim>
-std::unique_ptr<Material<dim>>
-construct(const MaterialParameters &parameters)
-{
-  return std::make_unique<Law>(parameters);
-}
-
-/** All laws: a new one is registered by one line here. */
-template <int dim>
-const std::vector<std::pair<std::string, Factory<dim>>> &
-registered_laws()
-{
-  static const std::vector<std::pair<std::string, Factory<dim>>> laws = {
-    {"linear elastic", construct<LinearElastic<dim>, dim>},
-    {rigid_law, [](const MaterialParameters &) { return nullptr; }},
-  };
-  return laws;
-}
+const std::string rigid_law  = "rigid";
+const std::string linear_law = "linear elastic";
 
 /** What is wrong with the constants of a material, as (key, what, remedy). */
 struct Problem
@@ -42,19 +22,47 @@ struct Problem
   std::string remedy;
 };
 
+/** The constants that are given although the law has none of that name. */
+std::vector<Problem>
+superfluous(const std::vector<std::pair<std::string, double>> &constants, const std::string &what,
+            const std::string &remedy)
+{
+  std::vector<Problem> problems;
+  for (const auto &[key, value] : constants)
+    if (!std::isnan(value))
+      problems.push_back({key, what, remedy});
+  return problems;
+}
+
+std::vector<Problem>
+hardening_problems(const MaterialParameters &parameters)
+{
+  if (!is_plastic(parameters.law))
+    return superfluous({{"Yield stress", parameters.yield_stress},
+                        {"Hardening modulus", parameters.hardening_modulus}},
+                       "the law '" + parameters.law + "' has none",
+                       "remove the line or choose a law called J2");
+  std::vector<Problem> problems;
+  // The negated comparisons are also true for NaN.
+  if (!(parameters.yield_stress > 0))
+    problems.push_back(
+      {"Yield stress", "must be set to a number greater than 0", "give it in force per area"});
+  if (!(parameters.hardening_modulus >= 0))
+    problems.push_back({"Hardening modulus", "must be set to a number that is not negative",
+                        "give it in force per area, 0 for perfect plasticity"});
+  return problems;
+}
+
 std::vector<Problem>
 problems_of(const MaterialParameters &parameters)
 {
-  std::vector<Problem> problems;
   if (parameters.is_rigid())
-    {
-      for (const auto &[key, value] : {std::make_pair("Young's modulus", parameters.young),
-                                       std::make_pair("Poisson's ratio", parameters.poisson)})
-        if (!std::isnan(value))
-          problems.push_back({key, "a rigid material has none", "remove the line"});
-      return problems;
-    }
-  // The negated comparisons are also true for NaN.
+    return superfluous({{"Young's modulus", parameters.young},
+                        {"Poisson's ratio", parameters.poisson},
+                        {"Yield stress", parameters.yield_stress},
+                        {"Hardening modulus", parameters.hardening_modulus}},
+                       "a rigid material has none", "remove the line");
+  std::vector<Problem> problems = hardening_problems(parameters);
   if (!(parameters.young > 0))
     problems.push_back({"Young's modulus", "must be set to a number greater than 0",
                         "give E in force per area, e.g. 210e9 for steel in SI units"});
@@ -77,12 +85,25 @@ MaterialParameters::is_rigid() const
 void
 MaterialParameters::declare(const ParameterSection &section)
 {
-  law = section.choice("Law", law, material_laws(),
-                       "Constitutive law. linear elastic: isotropic, small strain, plane strain in "
-                       "two dimensions. rigid: bodies of this material do not deform; they have no "
-                       "elastic constants and move as their section Motion says.");
+  law = section.choice(
+    "Law", law, material_laws(),
+    "Constitutive law, isotropic; plane strain in two dimensions. linear elastic: the linear "
+    "theory, "
+    "on a fixed or a moving geometry. rigid: bodies of this material do not deform; they have no "
+    "constants and move as their section Motion says. All others need a moving geometry. Finite "
+    "strain: Hencky (logarithmic strain), neo-Hookean, Saint Venant-Kirchhoff (softens in "
+    "compression; for comparisons), J2 (Hencky with von Mises plasticity). Small strain: J2 small "
+    "strain (linear theory); linear elastic rotated, J2 small strain rotated (the stress turns "
+    "with "
+    "the material); linear elastic incremental (stress increments on the geometry at the start of "
+    "each step, without rotation).");
   section.entry("Young's modulus", young, "E > 0 [force/length^2].");
   section.entry("Poisson's ratio", poisson, "nu, -1 < nu < 0.5 [-].");
+  section.entry("Yield stress", yield_stress,
+                "sigma_y > 0 in uniaxial stress, of laws called J2 [force/length^2].");
+  section.entry("Hardening modulus", hardening_modulus,
+                "H >= 0 of linear isotropic hardening, of laws called J2: the yield stress is "
+                "sigma_y + H alpha with the equivalent plastic strain alpha [force/length^2].");
   section.entry("Density", density,
                 "Mass per volume in the reference configuration, not negative "
                 "[mass/length^3]. Needed for body forces per mass and for inertia.");
@@ -102,7 +123,7 @@ declare_materials(const ParameterSection &root)
 }
 
 void
-check_elastic_constants(const MaterialParameters &parameters)
+check_constants(const MaterialParameters &parameters)
 {
   for (const Problem &problem : problems_of(parameters))
     throw UserError("Materials", problem.key + " " + problem.what, problem.remedy);
@@ -111,10 +132,15 @@ check_elastic_constants(const MaterialParameters &parameters)
 std::vector<std::string>
 material_laws()
 {
-  std::vector<std::string> names;
-  for (const auto &law : registered_laws<2>())
-    names.push_back(law.first);
+  std::vector<std::string> names = increment_laws();
+  names.push_back(rigid_law);
   return names;
+}
+
+bool
+needs_moving_geometry(const std::string &law)
+{
+  return law != rigid_law && law != linear_law;
 }
 
 template <int dim>
@@ -157,11 +183,13 @@ template <int dim>
 std::unique_ptr<Material<dim>>
 make_material(const MaterialParameters &parameters)
 {
-  check_elastic_constants(parameters);
-  for (const auto &[name, construct_law] : registered_laws<dim>())
-    if (name == parameters.law)
-      return construct_law(parameters);
-  throw UserError("Materials", "there is no law called '" + parameters.law + "'");
+  const std::vector<std::string> laws = material_laws();
+  require(std::find(laws.begin(), laws.end(), parameters.law) != laws.end(), "Materials",
+          "there is no law called '" + parameters.law + "'");
+  check_constants(parameters);
+  if (parameters.is_rigid())
+    return nullptr;
+  return std::make_unique<LinearElastic<dim>>(parameters);
 }
 
 template class Material<2>;

@@ -6,7 +6,30 @@ using namespace dealii;
 
 namespace
 {
-/** Writes what both laws say alike; the Kirchhoff stress is that of an unchanged volume. */
+/** `sym(e_k (x) f)`. */
+Tensor<2, 3>
+symmetric_part(const unsigned int k, const Tensor<1, 3> &f)
+{
+  Tensor<2, 3> strain;
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      strain[i][k] += 0.5 * f[i];
+      strain[k][i] += 0.5 * f[i];
+    }
+  return strain;
+}
+
+/** `sym(F - I)`. */
+Tensor<2, 3>
+small_strain(const Tensor<2, 3> &F)
+{
+  Tensor<2, 3> strain = 0.5 * (F + transpose(F));
+  for (unsigned int i = 0; i < 3; ++i)
+    strain[i][i] -= 1;
+  return strain;
+}
+
+/** Writes what the plastic laws say alike. */
 void
 set_response(KirchhoffStress &point, const RadialReturn &flow, const IsotropicModuli &moduli,
              const Hardening &hardening)
@@ -19,40 +42,76 @@ set_response(KirchhoffStress &point, const RadialReturn &flow, const IsotropicMo
 }
 } // namespace
 
-SmallStrain::SmallStrain(const IsotropicModuli &moduli, const Hardening &hardening)
-    : moduli(moduli)
-    , hardening(hardening)
+template <WorkOf configuration>
+Tensor<2, 3>
+LinearPoint<configuration>::derivative(const unsigned int k, const Tensor<1, 3> &f) const
 {
+  return moduli.stress(symmetric_part(k, f));
 }
 
-SmallStrain::Point::Point(const RadialReturn &flow)
-    : flow(flow)
+template struct LinearPoint<WorkOf::start>;
+template struct LinearPoint<WorkOf::reference>;
+
+SmallStrain::SmallStrain(const IsotropicModuli &moduli)
+    : moduli(moduli)
 {
 }
 
 SmallStrain::Point
 SmallStrain::at(const Tensor<2, 3> &F_D, const double, const IncrementStart &start) const
 {
-  Tensor<2, 3> strain = 0.5 * (F_D + transpose(F_D));
-  for (unsigned int i = 0; i < 3; ++i)
-    strain[i][i] -= 1;
-  Point point(
-    RadialReturn(start.tensor + moduli.stress(strain), start.alpha, moduli.mu, hardening));
+  const Tensor<2, 3> strain = small_strain(F_D * start.deformation_gradient);
+  Point              point;
+  point.moduli    = moduli;
+  point.kirchhoff = moduli.stress(strain);
+  point.energy    = 0.5 * scalar_product(point.kirchhoff, strain);
+  return point;
+}
+
+SmallStrainIncremental::SmallStrainIncremental(const IsotropicModuli &moduli)
+    : moduli(moduli)
+{
+}
+
+SmallStrainIncremental::Point
+SmallStrainIncremental::at(const Tensor<2, 3> &F_D, const double, const IncrementStart &start) const
+{
+  Point point;
+  point.moduli    = moduli;
+  point.kirchhoff = start.tensor + moduli.stress(small_strain(F_D));
+  point.internal  = point.kirchhoff;
+  point.energy    = moduli.energy(point.kirchhoff);
+  return point;
+}
+
+SmallStrainPlasticity::SmallStrainPlasticity(const IsotropicModuli &moduli,
+                                             const Hardening       &hardening)
+    : moduli(moduli)
+    , hardening(hardening)
+{
+}
+
+SmallStrainPlasticity::Point::Point(const RadialReturn &flow)
+    : flow(flow)
+{
+}
+
+SmallStrainPlasticity::Point
+SmallStrainPlasticity::at(const Tensor<2, 3> &F_D, const double, const IncrementStart &start) const
+{
+  const Tensor<2, 3> strain = small_strain(F_D * start.deformation_gradient);
+  const Tensor<2, 3> trial  = moduli.stress(strain - start.tensor);
+  Point              point(RadialReturn(trial, start.alpha, moduli.mu, hardening));
   point.moduli = moduli;
   set_response(point, point.flow, moduli, hardening);
+  point.internal = start.tensor + (trial - point.flow.stress) / (2 * moduli.mu);
   return point;
 }
 
 Tensor<2, 3>
-SmallStrain::Point::derivative(const unsigned int k, const Tensor<1, 3> &f) const
+SmallStrainPlasticity::Point::derivative(const unsigned int k, const Tensor<1, 3> &f) const
 {
-  Tensor<2, 3> strain;
-  for (unsigned int i = 0; i < 3; ++i)
-    {
-      strain[i][k] += 0.5 * f[i];
-      strain[k][i] += 0.5 * f[i];
-    }
-  return flow.derivative(moduli.stress(strain));
+  return flow.derivative(moduli.stress(symmetric_part(k, f)));
 }
 
 SmallStrainRotated::SmallStrainRotated(const IsotropicModuli &moduli, const Hardening &hardening)

@@ -11,7 +11,7 @@ template <int dim>
 void
 find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
             const CutQuadrature<dim> &quadrature, const Body<dim> &body,
-            BoundaryRegion<dim> &region)
+            const StepStart<dim> *start, BoundaryRegion<dim> &region)
 {
   CutCellRules<dim>                           rules(fields.basis);
   std::array<double, max_nodes_per_cell<dim>> values, scaled;
@@ -46,9 +46,18 @@ find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes
         {
           const dealii::Point<dim> position
             = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-          if (region.condition->selects(position))
-            region.points.push_back(
-              {a, points.points[q], position, points.normals[q], points.weights[q]});
+          BoundaryPoint<dim> point = {
+            a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
+          if (start)
+            {
+              const auto   then        = start->deformation({a, points.points[q]});
+              const double stretch     = (point.normal * then.gradient).norm();
+              point.start_displacement = then.displacement;
+              point.reference_position -= then.displacement;
+              point.area_ratio = stretch / determinant(then.gradient);
+            }
+          if (region.condition->selects(point.reference_position))
+            region.points.push_back(point);
         }
     }
 }
@@ -75,7 +84,8 @@ measure(const MPI_Comm communicator, BoundaryRegion<dim> &region)
 template <int dim>
 std::vector<BoundaryRegion<dim>>
 find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies)
+                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
+                      const StepStart<dim> *start)
 {
   std::vector<BoundaryRegion<dim>> regions;
   unsigned int                     next_multiplier = 0;
@@ -86,7 +96,7 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
           continue;
         regions.push_back({b, &condition, {}, 0., {}, next_multiplier});
         BoundaryRegion<dim> &region = regions.back();
-        find_points(fields, level_set_nodes, quadrature, bodies[b], region);
+        find_points(fields, level_set_nodes, quadrature, bodies[b], start, region);
         measure(fields.grid.communicator(), region);
         require(region.area > 0., condition.path,
                 "the region selects nothing of the body '" + bodies[b].name + "'",
@@ -100,7 +110,7 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
 #define SCREE_INSTANTIATE(dim)                                                   \
   template std::vector<BoundaryRegion<dim>> find_boundary_regions(               \
     const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &, \
-    const std::vector<Body<dim>> &);
+    const std::vector<Body<dim>> &, const StepStart<dim> *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

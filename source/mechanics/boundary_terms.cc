@@ -23,11 +23,14 @@ template <int dim>
 BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const CutQuadrature<dim>     &quadrature,
-                                  const std::vector<Body<dim>> &bodies)
+                                  const std::vector<Body<dim>> &bodies, const StepStart<dim> *start)
     : fields(fields)
     , bodies(bodies)
-    , boundary_regions(find_boundary_regions(fields, level_set_nodes, quadrature, bodies))
+    , boundary_regions(find_boundary_regions(fields, level_set_nodes, quadrature, bodies, start))
+    , start(start)
 {
+  if (start)
+    find_starts();
 }
 
 template <int dim>
@@ -148,7 +151,7 @@ BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
           {
             const unsigned int c         = region.condition->components[k];
             const double       stiffness = type == ConditionType::springs
-                                             ? region.condition->value(k, point.position, 0.)
+                                             ? region.condition->value(k, point.reference_position, 0.)
                                              : beta(region, q);
             require(stiffness >= 0., region.condition->path + "/Value",
                     "a spring stiffness is negative", "give values that are not less than zero");
@@ -161,7 +164,8 @@ BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
                 for (unsigned int j = 0; j < n * dim; ++j)
                   {
                     const double entry = point.weight * shape.value[a] * stress[j][c];
-                    block(a * dim + c, j) -= entry;
+                    if (!start)
+                      block(a * dim + c, j) -= entry;
                     block(j, a * dim + c) += adjoint * entry;
                   }
           }
@@ -189,19 +193,27 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
           cell_load           = 0.;
           if (type == ConditionType::mean_support && prescribed)
             {
+              const dealii::Tensor<1, dim> arm = point.position - region.centre;
+              const auto                  &u_n = point.start_displacement;
               for (unsigned int m = 0; m < condition.components.size(); ++m)
-                loads(fields.multiplier(region.first_multiplier + m))
-                  += multiplier_scale(region) * point.weight
-                     * condition.value(m, point.position, time)
-                     * (condition.components[m] < dim ? 1. : squared_arm(region, point));
+                {
+                  const unsigned int c     = condition.components[m];
+                  const double       value = condition.value(m, point.reference_position, time);
+                  loads(fields.multiplier(region.first_multiplier + m))
+                    += multiplier_scale(region) * point.weight
+                       * (c < dim ? value - u_n[c]
+                                  : value * squared_arm(region, point)
+                                      - (arm[0] * u_n[1] - arm[1] * u_n[0]));
+                }
               continue;
             }
-          if (dead_loads && (type == ConditionType::traction || type == ConditionType::pressure))
+          if (dead_loads
+              && (type == ConditionType::traction || (type == ConditionType::pressure && !start)))
             {
               const dealii::Tensor<1, dim> t
                 = type == ConditionType::traction
-                    ? condition.vector(point.position, time)
-                    : -condition.value(0, point.position, time) * point.normal;
+                    ? point.area_ratio * condition.vector(point.reference_position, time)
+                    : -condition.value(0, point.reference_position, time) * point.normal;
               stress_vectors(region, point, shape, stress);
               for (unsigned int a = 0; a < n; ++a)
                 for (unsigned int d = 0; d < dim; ++d)
@@ -217,12 +229,25 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
               for (unsigned int k = 0; k < condition.components.size(); ++k)
                 {
                   const unsigned int c     = condition.components[k];
-                  const double       value = condition.value(k, point.position, time);
+                  const double       value = condition.value(k, point.reference_position, time)
+                                       - point.start_displacement[c];
                   for (unsigned int a = 0; a < n; ++a)
                     cell_load(a * dim + c)
                       += point.weight * beta(region, q) * shape.value[a] * value;
                   for (unsigned int j = 0; j < n * dim; ++j)
                     cell_load(j) += adjoint * point.weight * stress[j][c] * value;
+                }
+            }
+          else if (prescribed && start && type == ConditionType::springs)
+            {
+              stress_vectors(region, point, shape, stress);
+              for (unsigned int k = 0; k < condition.components.size(); ++k)
+                {
+                  const unsigned int c     = condition.components[k];
+                  const double       force = -condition.value(k, point.reference_position, 0.)
+                                       * point.start_displacement[c];
+                  for (unsigned int a = 0; a < n; ++a)
+                    cell_load(a * dim + c) += point.weight * shape.value[a] * force;
                 }
             }
           else
@@ -260,9 +285,10 @@ template <int dim>
 bool
 BoundaryTerms<dim>::is_symmetric() const
 {
-  return std::none_of(boundary_regions.begin(), boundary_regions.end(), [](const auto &region) {
-    return region.condition->parameters.type == ConditionType::displacement
-           && region.condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche;
+  return std::none_of(boundary_regions.begin(), boundary_regions.end(), [&](const auto &region) {
+    return (start && is_nonlinear(region))
+           || (region.condition->parameters.type == ConditionType::displacement
+               && region.condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche);
   });
 }
 
@@ -284,9 +310,10 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
   switch (condition.parameters.type)
     {
     case ConditionType::traction:
-      return condition.vector(point.position, time);
+      return point.area_ratio * condition.vector(point.reference_position, time);
     case ConditionType::pressure:
-      return -condition.value(0, point.position, time) * point.normal;
+      return -condition.value(0, point.reference_position, time)
+             * (start ? turned_normal(region, q, u) : point.normal);
     case ConditionType::mean_support:
     case ConditionType::point_support:
       return result;
@@ -297,25 +324,27 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
   ShapeValues<dim>                    shape;
   std::vector<dealii::Tensor<1, dim>> stress;
   stress_vectors(region, point, shape, stress);
-  dealii::Tensor<1, dim> displacement, stress_vector;
-  const DofIndex        *nodes = fields.nodes(point.active_cell);
+  dealii::Tensor<1, dim> displacement = point.start_displacement, flux;
+  const DofIndex        *nodes        = fields.nodes(point.active_cell);
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double value = u(nodes[a] + d);
         displacement[d] += value * shape.value[a];
-        stress_vector += value * stress[a * dim + d];
+        flux += value * stress[a * dim + d];
       }
+  if (start && is_nonlinear(region))
+    flux = stress_vector(region, q, u);
   const bool is_spring = condition.parameters.type == ConditionType::springs;
   for (unsigned int k = 0; k < condition.components.size(); ++k)
     {
       const unsigned int c = condition.components[k];
       if (is_spring)
-        result[c] = -condition.value(k, point.position, 0.) * displacement[c];
+        result[c] = -condition.value(k, point.reference_position, 0.) * displacement[c];
       else
-        result[c]
-          = (condition.parameters.method == DisplacementMethod::penalty ? 0. : stress_vector[c])
-            - beta(region, q) * (displacement[c] - condition.value(k, point.position, time));
+        result[c] = (condition.parameters.method == DisplacementMethod::penalty ? 0. : flux[c])
+                    - beta(region, q)
+                        * (displacement[c] - condition.value(k, point.reference_position, time));
     }
   return result;
 }
@@ -394,7 +423,7 @@ BoundaryTerms<dim>::energy(const Vector &u, const double time) const
           for (unsigned int k = 0; k < condition.components.size(); ++k)
             {
               const unsigned int c            = condition.components[k];
-              double             displacement = 0.;
+              double             displacement = point.start_displacement[c];
               for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
                 displacement += shape[a] * u(fields.nodes(point.active_cell)[a] + c);
               if (condition.parameters.type == ConditionType::springs)
@@ -402,7 +431,8 @@ BoundaryTerms<dim>::energy(const Vector &u, const double time) const
               else
                 {
                   // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e
-                  const double e = displacement - condition.value(k, point.position, time);
+                  const double e
+                    = displacement - condition.value(k, point.reference_position, time);
                   sum -= point.weight * (t[c] * e + 0.5 * beta(region, q) * e * e);
                 }
             }

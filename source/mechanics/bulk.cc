@@ -11,13 +11,17 @@ namespace scree
 {
 template <int dim>
 Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor)
+                const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+                const StepStart<dim> *start)
     : fields(fields)
     , quadrature(quadrature)
     , bodies(bodies)
     , gamma(ghost_penalty_factor)
     , ghost_penalty(fields)
+    , start(start)
 {
+  if (start)
+    set_up_increments();
 }
 
 template <int dim>
@@ -90,7 +94,7 @@ Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
   dealii::FullMatrix<double> cell_matrix;
   // Whole cells of one body and size share their matrix.
   std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < fields.n_owned_cells() && !start; ++a)
     {
       const ActiveCell &cell    = fields.cells()[a];
       const auto        indices = unknowns_of_nodes<dim>(fields.nodes(a), n);
@@ -112,26 +116,14 @@ Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
       const auto  &material = *bodies[fields.cells()[face.cell].body].material;
       const double factor   = gamma * material.p_wave_modulus();
-      const auto   jumps    = ghost_penalty.matrix(face);
-      // Nodes that the two cells share appear once.
-      std::vector<DofIndex>     nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
-      std::vector<unsigned int> position(2 * n);
-      for (unsigned int i = 0; i < 2 * n; ++i)
-        {
-          const DofIndex node
-            = i < n ? fields.nodes(face.cell)[i] : fields.nodes(face.neighbor)[i - n];
-          const auto found = std::find(nodes.begin(), nodes.end(), node);
-          position[i]      = found - nodes.begin();
-          if (found == nodes.end())
-            nodes.push_back(node);
-        }
-      cell_matrix.reinit(nodes.size() * dim, nodes.size() * dim);
-      for (unsigned int i = 0; i < 2 * n; ++i)
-        for (unsigned int j = 0; j < 2 * n; ++j)
+      const auto   jumps    = ghost_penalty.block(face);
+      cell_matrix.reinit(jumps.nodes.size() * dim, jumps.nodes.size() * dim);
+      for (unsigned int i = 0; i < jumps.nodes.size(); ++i)
+        for (unsigned int j = 0; j < jumps.nodes.size(); ++j)
           for (unsigned int d = 0; d < dim; ++d)
-            cell_matrix(position[i] * dim + d, position[j] * dim + d) += factor * jumps(i, j);
+            cell_matrix(i * dim + d, j * dim + d) = factor * jumps.matrix(i, j);
       constraints.distribute_local_to_global(
-        cell_matrix, unknowns_of_nodes<dim>(nodes.data(), nodes.size()), matrix);
+        cell_matrix, unknowns_of_nodes<dim>(jumps.nodes.data(), jumps.nodes.size()), matrix);
     }
 }
 
@@ -156,8 +148,10 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
           fields.basis.evaluate_values(points.points[q], shape.data());
           const dealii::Point<dim> position
             = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-          const dealii::Tensor<1, dim> b
+          dealii::Tensor<1, dim> b
             = points.weights[q] * points.weight_scale * force.vector(position, time);
+          if (start)
+            b /= volume_ratios[first_point[a] + q];
           if (!std::isfinite(b.norm_square()))
             {
               std::ostringstream where;
@@ -213,6 +207,8 @@ Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit
         result.displacement[c] += value * shape.value[i];
         gradient[c] += value * scale * shape.gradient[i];
       }
+  if (start)
+    return increment_sample({active_cell, unit_point}, result.displacement, gradient);
   result.strain = symmetrize(gradient);
   result.stress = bodies[cell.body].material->stress(result.strain);
   if (dim == 2)
@@ -221,10 +217,10 @@ Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit
 }
 
 template <int dim>
-std::vector<double>
-Bulk<dim>::strain_energy(const Vector &u) const
+double
+Bulk<dim>::linear_strain_energy(const Vector &u) const
 {
-  std::vector<double> energy(bodies.size(), 0.);
+  double energy = 0.;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const CellRule points = rule(a);
@@ -234,9 +230,8 @@ Bulk<dim>::strain_energy(const Vector &u) const
           const auto values = sample(a, points.points[q], u);
           sum += 0.5 * points.weights[q] * (values.stress * values.strain);
         }
-      energy[fields.cells()[a].body] += sum * points.weight_scale;
+      energy += sum * points.weight_scale;
     }
-  dealii::Utilities::MPI::sum(energy, fields.grid.communicator(), energy);
   return energy;
 }
 

@@ -27,7 +27,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , bulk(bulk)
     , boundary_terms(boundary_terms)
     , contact(contact)
-    , supports(fields, bodies)
+    , supports(fields, bodies, bulk.step_start())
     , rigid(fields, bodies, contact)
     , free(fields, bodies, supports, boundary_terms, contact)
 {
@@ -131,7 +131,7 @@ template <int dim>
 void
 Equilibrium<dim>::set_prescribed(Vector &u) const
 {
-  supports.set(u, time);
+  supports.set(u, time, start_time);
   rigid.set(u, time);
 }
 
@@ -173,7 +173,11 @@ template <int dim>
 void
 Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
 {
-  ghosted           = u;
+  // Contact stencils have no hanging nodes, laws in increments see them.
+  if (is_linear_but_for_contact())
+    ghosted = u;
+  else
+    ghosted = with_ghosts(u);
   displacement_norm = u.l2_norm();
   contact.evaluate(ghosted, history);
   contact_forces = 0.;
@@ -181,6 +185,12 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   contact_forces.compress(dealii::VectorOperation::add);
   rigid.applied(ghosted, time, applied_forces);
   stiffness.vmult(internal_forces, u);
+  if (!is_linear_but_for_contact())
+    {
+      bulk.add_internal_forces(ghosted, internal_forces);
+      boundary_terms.add_internal_forces(ghosted, time, internal_forces);
+      internal_forces.compress(dealii::VectorOperation::add);
+    }
   r = loads;
   r -= internal_forces;
   r += contact_forces;
@@ -197,6 +207,8 @@ const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
+  bulk.add_tangent(ghosted, newton_matrix);
+  boundary_terms.add_tangent(ghosted, time, newton_matrix);
   contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
   add_artificial_mass(newton_matrix);
@@ -381,96 +393,6 @@ Equilibrium<dim>::condition_names() const
   for (const auto &[body, condition] : supports.conditions())
     names.push_back(bodies[body].name + "." + condition->name);
   return names;
-}
-
-template <int dim>
-double
-Equilibrium<dim>::work_of_multipliers(const Vector &u)
-{
-  double work = 0.;
-  for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
-    {
-      const DofIndex index = fields.multiplier(i);
-      if (!fields.owned().is_element(index))
-        continue;
-      // The row says B u = f, its multiplier acts on the body with -B^T lambda.
-      work -= 0.5 * (accepted_u(index) + u(index)) * (loads(index) - accepted_prescribed(index));
-      accepted_prescribed(index) = loads(index);
-    }
-  accepted_prescribed.compress(dealii::VectorOperation::insert);
-  return work;
-}
-
-template <int dim>
-double
-Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghost_values)
-{
-  double work = work_of_multipliers(u);
-  Vector forces(internal_forces);
-  reactions(forces);
-  for (const auto &unknown : supports.unknowns())
-    {
-      const double motion = u(unknown.index) - accepted_u(unknown.index);
-      work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
-    }
-  // What drives the rigid bodies: applied forces, or the reactions of prescribed components.
-  forces += applied_forces;
-  work += rigid.work(u, accepted_u, forces, accepted_reactions);
-  accepted_reactions = forces;
-  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
-    {
-      const auto &region    = boundary_terms.regions()[i];
-      const auto &condition = *region.condition;
-      if (condition.parameters.type != ConditionType::displacement)
-        continue;
-      for (unsigned int q = 0; q < region.points.size(); ++q)
-        {
-          const auto &point    = region.points[q];
-          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
-          const auto  value    = condition.vector(point.position, time);
-          work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
-                  * (value - accepted_displacements[i][q]);
-          accepted_tractions[i][q]     = traction;
-          accepted_displacements[i][q] = value;
-        }
-    }
-  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
-}
-
-template <int dim>
-void
-Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
-{
-  const Vector with_ghost_values = with_ghosts(u);
-  Energies    &energies          = current_energies;
-  // Unknown by unknown with condensed hanging nodes: loads have no entries there.
-  Vector motion(u);
-  motion -= accepted_u;
-  accepted_dead_loads += dead_loads;
-  energies.external_work
-    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(u, with_ghost_values);
-  accepted_dead_loads = dead_loads;
-  accepted_u          = u;
-
-  double stored = 0., dissipated = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const auto &point    = contact.points()[i];
-      const auto &response = contact.responses()[i];
-      stored += 0.5 * point.weight
-                * (response.pressure * response.pressure / contact.eps_n(i)
-                   + response.tau.norm_square() / contact.eps_t(i));
-      dissipated
-        += 0.5 * point.weight * (old_history.tau[i].norm() + response.tau.norm()) * response.slip;
-    }
-  const MPI_Comm communicator = fields.grid.communicator();
-  energies.contact            = dealii::Utilities::MPI::sum(stored, communicator);
-  energies.dissipation += dealii::Utilities::MPI::sum(dissipated, communicator);
-  energies.strain = 0.;
-  for (const double energy : bulk.strain_energy(with_ghost_values))
-    energies.strain += energy;
-  energies.ghost_penalty = bulk.ghost_energy(with_ghost_values);
-  energies.boundary      = boundary_terms.energy(with_ghost_values, time);
 }
 
 template class Equilibrium<2>;

@@ -29,8 +29,10 @@ contradict(const BoundaryCondition<dim> &a, const unsigned int value_a,
 } // namespace
 
 template <int dim>
-StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
-    : communicator(fields.grid.communicator())
+StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                                    const StepStart<dim> *start)
+    : start(start)
+    , communicator(fields.grid.communicator())
 {
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (const auto &condition : bodies[b].conditions)
@@ -46,13 +48,15 @@ bool
 StrongSupports<dim>::is_prescribed_at(const BoundaryCondition<dim> &condition,
                                       const GridCell<dim>          &cell,
                                       const dealii::Point<dim>     &unit_node,
-                                      const dealii::Point<dim>     &position) const
+                                      const dealii::Point<dim>     &reference_position) const
 {
   if (condition.parameters.type == ConditionType::point_support)
-    return position.distance(condition.parameters.point) < 1e-6 * cell.size;
+    return dealii::Point<dim>(cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node))
+             .distance(condition.parameters.point)
+           < 1e-6 * cell.size;
   const unsigned int face = condition.box_face;
   return cell.iterator->at_boundary(face) && unit_node[face / 2] == double(face % 2)
-         && condition.selects(position);
+         && condition.selects(reference_position);
 }
 
 template <int dim>
@@ -76,7 +80,9 @@ StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Bo
             const dealii::Point<dim> unit_node = fields.basis.node(i);
             const dealii::Point<dim> position
               = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node);
-            if (!is_prescribed_at(*condition, cell, unit_node, position))
+            const dealii::Point<dim> reference_position
+              = start ? start->reference_position({a, unit_node}) : position;
+            if (!is_prescribed_at(*condition, cell, unit_node, reference_position))
               continue;
             ++n_selected;
             for (unsigned int k = 0; k < condition->components.size(); ++k)
@@ -90,10 +96,10 @@ StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Bo
                   {
                     const auto &other = *known.at(index);
                     contradiction |= contradict(*condition, k, *supports[other.support].second,
-                                                other.value, position);
+                                                other.value, reference_position);
                     continue;
                   }
-                found[index] = {index, component, support, k, position};
+                found[index] = {index, component, support, k, position, reference_position};
               }
           }
       }
@@ -113,12 +119,32 @@ StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Bo
 }
 
 template <int dim>
+double
+StrongSupports<dim>::increment(const PrescribedUnknown<dim> &unknown, const double time,
+                               const double start_time) const
+{
+  const auto  &condition = *supports[unknown.support].second;
+  const double now       = condition.value(unknown.value, unknown.reference_position, time);
+  if (!start)
+    return now;
+  const double result
+    = now - condition.value(unknown.value, unknown.reference_position, start_time);
+  const bool is_vertex = condition.parameters.type == ConditionType::point_support;
+  require(result == 0. || (!is_vertex && condition.box_face / 2 != unknown.component),
+          condition.path,
+          std::string("on a moving geometry ")
+            + (is_vertex ? "a point support" : "the motion normal to a face of the box")
+            + " must be constant: the grid does not move",
+          "let the body end inside the box and prescribe the motion of its surface");
+  return result;
+}
+
+template <int dim>
 void
-StrongSupports<dim>::set(Vector &u, const double time) const
+StrongSupports<dim>::set(Vector &u, const double time, const double start_time) const
 {
   for (const auto &unknown : prescribed)
-    u(unknown.index)
-      = supports[unknown.support].second->value(unknown.value, unknown.position, time);
+    u(unknown.index) = increment(unknown, time, start_time);
   u.compress(dealii::VectorOperation::insert);
 }
 

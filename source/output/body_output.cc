@@ -307,22 +307,31 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
       const ActiveCell               &cell     = fields.cells()[piece.active_cell];
       const auto                     &geometry = fields.grid.cells()[cell.grid_cell];
       std::vector<dealii::Point<dim>> vertices;
+      std::vector<BulkSample<dim>>    samples;
       for (const auto &vertex : piece.vertices)
-        vertices.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(vertex));
-      output.patches.push_back(make_patch<dim>(vertices, cell.body, [&](const unsigned int v) {
-        return bulk.sample(piece.active_cell, piece.vertices[v], u);
-      }));
+        {
+          vertices.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(vertex));
+          samples.push_back(bulk.sample(piece.active_cell, vertex, u));
+          if (const auto *start = bulk.step_start())
+            vertices.back() += samples.back().displacement
+                               - start->deformation({piece.active_cell, vertex}).displacement;
+        }
+      output.patches.push_back(make_patch<dim>(
+        vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
       output.patches.back().patch_index = output.patches.size() - 1;
     }
   for (const RigidPiece &piece : rigid_pieces)
     {
       const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
-      output.patches.push_back(
-        make_patch<dim>(piece.vertices, piece.body, [&](const unsigned int v) {
-          BulkSample<dim> sample;
-          sample.displacement = pose.displacement(piece.vertices[v]);
-          return sample;
-        }));
+      std::vector<dealii::Point<dim>> vertices = piece.vertices;
+      if (bulk.step_start())
+        for (auto &vertex : vertices)
+          vertex += pose.displacement(vertex);
+      output.patches.push_back(make_patch<dim>(vertices, piece.body, [&](const unsigned int v) {
+        BulkSample<dim> sample;
+        sample.displacement = pose.displacement(piece.vertices[v]);
+        return sample;
+      }));
       output.patches.back().patch_index = output.patches.size() - 1;
     }
   dealii::DataOutBase::VtkFlags flags;

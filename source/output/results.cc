@@ -46,17 +46,22 @@ add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &m
 } // namespace
 
 template <int dim>
-Results<dim>::Results(const std::string &directory, const Fields<dim> &fields,
-                      const LevelSetNodes<dim>                &level_set_nodes,
-                      const std::vector<Body<dim>>            &bodies,
+Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
                       const std::vector<ProbeParameters<dim>> &probes)
     : directory(directory)
-    , fields(fields)
     , bodies(bodies)
     , probes(probes)
-    , body_output(fields, level_set_nodes, bodies)
-    , is_first(dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
 {
+}
+
+template <int dim>
+void
+Results<dim>::set_discretization(const Fields<dim>        &new_fields,
+                                 const LevelSetNodes<dim> &level_set_nodes)
+{
+  fields      = &new_fields;
+  body_output = std::make_unique<BodyOutput<dim>>(new_fields, level_set_nodes, bodies);
+  is_first    = dealii::Utilities::MPI::this_mpi_process(new_fields.grid.communicator()) == 0;
 }
 
 template <int dim>
@@ -77,12 +82,24 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   for (const auto &body : bodies)
     if (body.is_rigid())
       add_rigid_names<dim>(body.name, names);
+  const bool is_moving = !equilibrium.is_linear_but_for_contact();
   for (const auto &body : bodies)
     if (!body.is_rigid())
-      names.push_back(body.name + ".volume");
+      names.push_back(body.name + (is_moving ? ".start_volume" : ".volume"));
   for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
-                                   "external_work", "balance_error"})
+                                   "plastic", "external_work", "transfer", "balance_error"})
     names.push_back("energy." + energy);
+  if (!is_moving)
+    return names;
+  for (const auto &body : bodies)
+    if (!body.is_rigid())
+      for (const std::string column : {"volume", "point_volume", "mass", "points"})
+        names.push_back(body.name + "." + column);
+  for (const ContactPair &pair : contact.pairs())
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(pair.name + ".transfer_" + axes[d]);
+  names.push_back("islands");
+  names.push_back("widened_transfers");
   return names;
 }
 
@@ -119,17 +136,15 @@ Results<dim>::last_values() const
 
 template <int dim>
 void
-Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                            const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
-                            const Vector &u)
+Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                             const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
+                             const Vector &u)
 {
-  if (is_first && !history)
-    history = std::make_unique<CsvTable>(directory + "/history.csv",
-                                         history_columns(equilibrium, contact));
+  history_names               = history_columns(equilibrium, contact);
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
-  for (const auto &summary : summarise_contact(contact, fields.grid.communicator()))
+  for (const auto &summary : summarise_contact(contact, fields->grid.communicator()))
     {
       add_resultant<dim>(summary.force, summary.moment, values);
       for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
@@ -148,9 +163,9 @@ Results<dim>::write_history(const StepRecord &record, const Equilibrium<dim> &eq
     if (!bodies[b].is_rigid())
       values.push_back(volumes[b]);
   const Energies &energies = equilibrium.energies();
-  for (const double energy :
-       {energies.strain, energies.ghost_penalty, energies.boundary, energies.contact,
-        energies.dissipation, energies.external_work, energies.balance_error()})
+  for (const double energy : {energies.strain, energies.ghost_penalty, energies.boundary,
+                              energies.contact, energies.dissipation, energies.plastic,
+                              energies.external_work, energies.transfer, energies.balance_error()})
     values.push_back(energy);
   if (is_first)
     history->add_row(values);
@@ -161,7 +176,7 @@ void
 Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
   body_records.emplace_back(record.time,
-                            body_output.write(bulk, ghosted_u, directory, record.step));
+                            body_output->write(bulk, ghosted_u, directory, record.step));
   write_pvd("bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
@@ -181,7 +196,7 @@ template <int dim>
 void
 Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &contact)
 {
-  const MPI_Comm communicator = fields.grid.communicator();
+  const MPI_Comm communicator = fields->grid.communicator();
   write_contact_csv(contact, communicator, directory, record.step);
   contact_records.emplace_back(record.time,
                                write_contact_vtu(contact, communicator, directory, record.step));
@@ -193,7 +208,7 @@ std::vector<std::vector<double>>
 Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Bulk<dim> &bulk,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), fields, bulk, ghosted_u);
+  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u);
 }
 
 template <int dim>

@@ -3,15 +3,12 @@
 namespace scree
 {
 template <int dim>
-State<dim>
-initial_state(const Fields<dim> &fields, const ContactPoints<dim> &contact)
+dealii::TrilinosWrappers::MPI::Vector
+zero_displacement(const Fields<dim> &fields)
 {
-  State<dim> state;
-  state.displacement.reinit(fields.owned(), fields.grid.communicator());
-  state.contact = contact.initial_history();
-  return state;
+  return dealii::TrilinosWrappers::MPI::Vector(fields.owned(), fields.grid.communicator());
 }
 
-template State<2> initial_state(const Fields<2> &, const ContactPoints<2> &);
-template State<3> initial_state(const Fields<3> &, const ContactPoints<3> &);
+template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const Fields<2> &);
+template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const Fields<3> &);
 } // namespace scree

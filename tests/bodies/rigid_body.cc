@@ -33,7 +33,7 @@ rigid_body()
   typename Lattice<dim>::Index first, n_nodes;
   first.fill(0);
   n_nodes.fill(4);
-  return RigidBody<dim>(parameters, box, Lattice<dim>({lower, 1., box}, first, n_nodes));
+  return RigidBody<dim>(parameters, box, Lattice<dim>({lower, 1., box}, first, n_nodes), nullptr);
 }
 
 /** Unknowns with a rotation of about the given angle. */

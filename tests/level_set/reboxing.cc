@@ -102,5 +102,28 @@ TEST(Reboxing, LeavesALatticeThatFits)
   EXPECT_TRUE(follow_body(lattice, 2 * h));
   EXPECT_LT(lattice.box().upper_bound(0), 0.75);
 }
+
+// A half disc cut by the face x = 0 of a box grows in y: only that side of the lattice follows, and
+// what is beyond the face does not count.
+TEST(Reboxing, FollowsAClippedBody)
+{
+  const double         h = 0.05;
+  const BoundingBox<2> box({Point<2>(0, -3), Point<2>(3, 3)});
+  const auto           nodes = node_box<2>(frame(h), Point<2>(-0.4, -1), Point<2>(1, 1));
+  Lattice<2>           lattice(frame(h), nodes.lower, nodes.n_nodes);
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    {
+      const Point<2> x    = lattice.node(lattice.index(i));
+      lattice.values()[i] = std::min(x.norm() - 0.5, x.distance(Point<2>(-0.3, 0.95)) - 0.1);
+    }
+  const Lattice<2> start = lattice;
+  EXPECT_FALSE(follow_body(lattice, 8 * h, box));
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    lattice.values()[i] = lattice.node(lattice.index(i)).distance(Point<2>(0, 0.2)) - 0.5;
+  EXPECT_TRUE(follow_body(lattice, 8 * h, box));
+  EXPECT_EQ(lattice.lower()[0], start.lower()[0]);
+  EXPECT_GE(lattice.box().upper_bound(1), 0.7 + 8 * h);
+  EXPECT_GT(lattice.box().lower_bound(1), start.box().lower_bound(1));
+}
 } // namespace
 } // namespace scree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/material/increment_law.h>
+#include <scree/material/logarithmic_strain.h>
 
 #include <array>
 #include <cmath>
@@ -15,16 +16,17 @@ constexpr double young = 200, poisson = 0.3, yield_stress = 8, hardening_modulus
 constexpr double mu     = young / (2 * (1 + poisson));
 constexpr double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
 
+/** Laws of the linear theory in total strains. */
 inline bool
-is_plastic(const std::string &name)
+is_total(const std::string &name)
 {
-  return name.find("J2") != std::string::npos;
+  return name == "linear elastic" || name == "J2 small strain";
 }
 
 inline bool
 is_geometric(const std::string &name)
 {
-  return name != "linear elastic" && name != "J2 small strain";
+  return !is_total(name) && name != "linear elastic incremental";
 }
 
 inline MaterialParameters
@@ -61,15 +63,6 @@ answer(const IncrementLaw<dim> &law, const dealii::Tensor<2, dim> &F_D, const In
   return result;
 }
 
-/** The history at the end of an increment. */
-template <int dim>
-PointHistory<dim>
-after(const PointHistory<dim> &history, const dealii::Tensor<2, dim> &F_D,
-      const IncrementResponse<dim> &response)
-{
-  return {F_D * history.deformation_gradient, response.internal, response.alpha};
-}
-
 template <int dim>
 dealii::Tensor<2, dim>
 unit()
@@ -101,21 +94,60 @@ random_rotation(std::mt19937 &generator)
   return invert(unit<dim>() - w) * (unit<dim>() + w);
 }
 
-/** A history after some straining, such that laws with internal tensors have a stress. */
+/** `F` with three rows, for plane strain. */
+template <int dim>
+dealii::Tensor<2, 3>
+with_three_rows(const dealii::Tensor<2, dim> &gradient)
+{
+  dealii::Tensor<2, 3> result;
+  result[2][2] = 1;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      result[i][j] = gradient[i][j];
+  return result;
+}
+
+/** `ln(F^{-1} b_e F^{-T})` with a `b_e` of small shear and the volume of `F`. */
+inline dealii::SymmetricTensor<2, 3>
+plastic_metric(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &shear)
+{
+  using namespace dealii;
+  const Tensor<2, 3> inverse = invert(F);
+  const Tensor<2, 3> b_e     = std::pow(determinant(F), 2. / 3.) * exponential(deviator(shear));
+  const Tensor<2, 3> metric  = inverse * b_e * transpose(inverse);
+  return symmetrize(2. * LogarithmicStrain(eigensystem(metric)).value());
+}
+
+/** A history after some straining, at a moderate stress. */
 template <int dim>
 PointHistory<dim>
 random_history(std::mt19937 &generator, const IncrementLaw<dim> &law)
 {
   using namespace dealii;
-  PointHistory<dim> history;
-  const double      scale      = law.internal() == InternalTensor::cauchy_stress ? young : 1;
-  const auto        in_plane   = symmetrize(random_tensor<dim>(generator, 0.03 * scale));
-  history.deformation_gradient = unit<dim>() + random_tensor<dim>(generator, 0.3);
+  PointHistory<dim>     history;
+  const auto            in_plane = symmetrize(random_tensor<dim>(generator, 0.03));
+  SymmetricTensor<2, 3> small;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
-      history.internal[i][j] = in_plane[i][j];
-  history.internal[2][2] += 0.01 * scale;
-  history.alpha = std::abs(in_plane[0][1]) / scale;
+      small[i][j] = in_plane[i][j];
+  small[2][2] += 0.01;
+  history.deformation_gradient = unit<dim>() + random_tensor<dim>(generator, 0.3);
+  const Tensor<2, 3> F         = with_three_rows<dim>(history.deformation_gradient);
+  switch (law.internal())
+    {
+    case InternalTensor::none:
+      break;
+    case InternalTensor::plastic_metric:
+      history.internal = plastic_metric(F, small);
+      break;
+    case InternalTensor::plastic_strain:
+      history.internal = deviator(symmetrize(F) - small);
+      break;
+    case InternalTensor::cauchy_stress:
+      history.internal = young * small;
+      break;
+    }
+  history.alpha = std::abs(in_plane[0][1]);
   return history;
 }
 } // namespace scree::increment_points

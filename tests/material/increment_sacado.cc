@@ -162,17 +162,30 @@ template <typename Number>
 Matrix<Number>
 piola(const std::string &name, const Matrix<Number> &F, const IncrementStart &start)
 {
-  Matrix<Number> old;
+  Matrix<Number> old, F_n;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      old[i][j] = start.tensor[i][j];
+      {
+        old[i][j] = start.tensor[i][j];
+        F_n[i][j] = start.deformation_gradient[i][j];
+      }
   const Matrix<Number> one = diagonal(Number(1));
+  if (is_total(name))
+    {
+      const Matrix<Number> total  = product(F, F_n);
+      const Matrix<Number> twice  = sum(sum(total, transposed(total), Number(1)), one, Number(-2));
+      const Matrix<Number> strain = sum(diagonal(Number(0)), twice, Number(0.5));
+      const Matrix<Number> sigma
+        = is_plastic(name) ? radial_return(hooke(sum(strain, old, Number(-1))), start.alpha)
+                           : hooke(strain);
+      return sum(diagonal(Number(0)), product(sigma, transposed(F_n)),
+                 Number(1 / start.volume_ratio));
+    }
   if (!is_geometric(name))
     {
       const Matrix<Number> twice  = sum(sum(F, transposed(F), Number(1)), one, Number(-2));
       const Matrix<Number> strain = sum(diagonal(Number(0)), twice, Number(0.5));
-      const Matrix<Number> trial  = sum(old, hooke(strain), Number(1));
-      return is_plastic(name) ? radial_return(trial, start.alpha) : trial;
+      return sum(old, hooke(strain), Number(1));
     }
   const Matrix<Number> b   = product(product(F, old), transposed(F));
   const Number         J_D = determinant(F);
@@ -247,7 +260,7 @@ check_against_sacado()
           if (sample % 4 >= 2) // after an increment, back by a part of it: unloading
             {
               const auto response = answer(*law, forth, law->start(history)).response;
-              history             = after(history, forth, response);
+              history             = law->finish(history, forth, response);
               F_D                 = unit<dim>() - 0.1 * (forth - unit<dim>());
             }
           const IncrementStart start = law->start(history);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
+#include <scree/material/increment_law.h>
 #include <scree/material/material.h>
 #include <scree/parameters/file.h>
 
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -168,6 +170,71 @@ TEST(MaterialParameters, AreChecked)
   EXPECT_NE(message_for(E + nu + "set Density = -1").find("Density"), std::string::npos);
   EXPECT_NE(message_for(E + nu + "set Law = linear elastik").find("linear elastic"),
             std::string::npos);
+}
+
+TEST(MaterialParameters, EveryLawCanBeChosen)
+{
+  for (const std::string &name : material_laws())
+    {
+      const std::string elastic = "set Young's modulus = 1\nset Poisson's ratio = 0.3\n";
+      const std::string plastic = "set Yield stress = 2\nset Hardening modulus = 3\n";
+      const std::string law     = "set Law = " + name + "\n";
+      const bool        yields  = name.find("J2") != std::string::npos;
+      EXPECT_EQ(is_plastic(name), yields) << name;
+      EXPECT_EQ(needs_moving_geometry(name), name != "linear elastic" && name != "rigid") << name;
+      if (name == "rigid")
+        {
+          EXPECT_EQ(message_for(law), "");
+          EXPECT_NE(message_for(law + "set Yield stress = 1").find("\"Yield stress\" = 1: a rigid"),
+                    std::string::npos);
+          continue;
+        }
+      EXPECT_EQ(message_for(law + elastic + (yields ? plastic : "")), "") << name;
+      const std::string wrong = message_for(law + elastic + (yields ? "" : plastic));
+      const std::string reason
+        = yields ? "\"Yield stress\": must be set" : "\"Yield stress\" = 2: the law '" + name + "'";
+      EXPECT_NE(wrong.find(reason), std::string::npos) << wrong;
+      EXPECT_NE(wrong.find("\"Hardening modulus\""), std::string::npos) << wrong;
+    }
+  const std::string J2 = "set Law = J2\nset Young's modulus = 1\nset Poisson's ratio = 0.3\n";
+  EXPECT_NE(
+    message_for(J2 + "set Yield stress = 0\nset Hardening modulus = 0").find("greater than 0"),
+    std::string::npos);
+  EXPECT_NE(
+    message_for(J2 + "set Yield stress = 1\nset Hardening modulus = -1").find("not negative"),
+    std::string::npos);
+}
+
+TEST(MaterialParameters, EveryDeformableLawHasItsModuliAtZeroStrain)
+{
+  MaterialParameters parameters = steel();
+  for (const std::string &name : material_laws())
+    {
+      parameters.law = name;
+      if (is_plastic(name))
+        {
+          parameters.yield_stress      = 100;
+          parameters.hardening_modulus = 10;
+        }
+      else
+        parameters.yield_stress = parameters.hardening_modulus
+          = std::numeric_limits<double>::quiet_NaN();
+      if (parameters.is_rigid())
+        continue;
+      const auto law = make_material<3>(parameters);
+      EXPECT_NEAR(law->young(), 210e3, 1e-8) << name;
+      // The tangent of the law in increments at the start is the same.
+      const auto           increments = make_increment_law<3>(parameters);
+      const Tensor<2, 3>   one(unit_symmetric_tensor<3>());
+      const IncrementStart start = increments->start(PointHistory<3>());
+      IncrementResponse<3> response;
+      Tensor<4, 3>         tangent;
+      increments->respond(
+        ArrayView<const Tensor<2, 3>>(&one, 1), ArrayView<const IncrementStart>(&start, 1),
+        ArrayView<IncrementResponse<3>>(&response, 1), ArrayView<Tensor<4, 3>>(&tangent, 1));
+      const Tensor<4, 3> expected(law->tangent(SymmetricTensor<2, 3>()));
+      EXPECT_LT((tangent - expected).norm(), 1e-10 * 210e3) << name;
+    }
 }
 
 TEST(MaterialParameters, MakeMaterialRefusesUnsetConstants)

@@ -3,6 +3,7 @@
 #include <scree/application/study_parameters.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/grid/background_grid.h>
+#include <scree/mechanics/moving_geometry_parameters.h>
 #include <scree/output/probes.h>
 #include <scree/parameters/file.h>
 #include <scree/solver/linear_solver.h>
@@ -38,6 +39,7 @@ struct Parameters
   std::map<std::string, MaterialParameters> materials;
   std::vector<BodyParameters<dim>>          bodies;
   ContactParameters                         contact;
+  MovingGeometryParameters                  moving;
   TimeParameters                            time;
   NewtonParameters                          newton;
   LinearSolverParameters                    linear_solver;

@@ -3,8 +3,10 @@
 #include <scree/application/parameters.h>
 #include <scree/base/log.h>
 #include <scree/base/timings.h>
+#include <scree/contact/contact_memory.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/error_indicator.h>
+#include <scree/mechanics/moving_level_sets.h>
 #include <scree/output/body_output.h>
 #include <scree/output/results.h>
 
@@ -15,6 +17,15 @@
 
 namespace scree
 {
+/** The last increment on a moving geometry, to begin the next iteration with. */
+template <int dim>
+struct Predictor
+{
+  std::vector<ExtendedIncrement<dim>>            of_bodies; //!< deformable ones, else empty
+  std::vector<typename RigidPose<dim>::Unknowns> of_rigid;
+  double                                         step_size = 0.; //!< 0: there is none
+};
+
 /** Estimate of the error of the displacement in the energy norm. */
 struct ErrorEstimate
 {
@@ -61,7 +72,7 @@ public:
 
   const BackgroundGrid<dim> &background_grid() const
   {
-    return grid;
+    return *grid;
   }
 
   const ContactPoints<dim> &contact_points() const
@@ -80,12 +91,39 @@ public:
 private:
   void                     set_up();
   std::vector<ContactPair> find_pairs() const;
-  void                     report_set_up();
+  /** Lattice nodes coincide with the support points of degree k on the finest cells. */
+  LatticeFrame<dim> lattice_frame() const;
+  /** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
+  double lattice_margin() const;
+  /** Grid, fields, quadrature, contact points and equations of the present geometry. */
+  void discretise();
+  bool is_moving() const
+  {
+    return parameters.moving.is_moving;
+  }
+  // Moving geometry, simulation_moving.cc.
+  /** Material points of a new run, or those that moved, on their processes; what they say of the
+   * start of the step. */
+  void set_up_points();
+  void seed_points();
+  /** Begins a step on the new geometry; `memory` is of the contact of the last one. */
+  void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
+                  const Energies &energies);
+  /** Moves the bodies by the last step and begins the next one. */
+  void move_geometry();
+  /** The material points after the increment, with the law's answers. */
+  MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
+  /** Why a converged increment is too large for the moving geometry; empty: it is not. */
+  std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
+  /** The start of the step plus the last increment, scaled to the step. */
+  typename Equilibrium<dim>::Vector predicted(const double time) const;
+  void                              report_set_up();
   /**
    * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
    * prediction, the one with the smallest residual.
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
+  typename Equilibrium<dim>::Vector extrapolated(const double time) const;
   bool                              solve_step(const double time);
   NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
@@ -112,23 +150,27 @@ private:
   Timings         timings;
   std::string     directory;
 
-  BackgroundGrid<dim>                 grid;
-  std::vector<Body<dim>>              bodies;
-  std::unique_ptr<LevelSetNodes<dim>> level_set_nodes;
-  std::unique_ptr<Fields<dim>>        fields;
-  std::unique_ptr<CutQuadrature<dim>> quadrature;
-  std::unique_ptr<ContactPoints<dim>> contact;
-  std::unique_ptr<Bulk<dim>>          bulk;
-  std::unique_ptr<BoundaryTerms<dim>> boundary_terms;
-  std::unique_ptr<Equilibrium<dim>>   equilibrium;
-  std::unique_ptr<LinearSolver>       linear_solver;
-  std::unique_ptr<CondensedSolver>    condensed_solver; //!< made when first needed
-  std::unique_ptr<Results<dim>>       results;
-  StepControl                         step_control;
-  State<dim>                          state;
-  StepRecord                          record;         //!< of the step being solved
-  typename Equilibrium<dim>::Vector   last_increment; //!< of the last step, per time
-  std::vector<double> largest_contact_force;          //!< on each body in this step's iterations
+  std::unique_ptr<BackgroundGrid<dim>> grid;
+  std::vector<Body<dim>>               bodies;
+  std::vector<ContactPair>             pairs;
+  std::unique_ptr<LevelSetNodes<dim>>  level_set_nodes;
+  std::unique_ptr<Fields<dim>>         fields;
+  std::unique_ptr<CutQuadrature<dim>>  quadrature;
+  std::unique_ptr<StepStart<dim>>      step_start; //!< on a moving geometry
+  std::unique_ptr<ContactPoints<dim>>  contact;
+  std::unique_ptr<Bulk<dim>>           bulk;
+  std::unique_ptr<BoundaryTerms<dim>>  boundary_terms;
+  std::unique_ptr<Equilibrium<dim>>    equilibrium;
+  std::unique_ptr<LinearSolver>        linear_solver;
+  std::unique_ptr<CondensedSolver>     condensed_solver; //!< made when first needed
+  std::unique_ptr<Results<dim>>        results;
+  StepControl                          step_control;
+  State<dim>                           state;
+  StepRecord                           record;         //!< of the step being solved
+  typename Equilibrium<dim>::Vector    last_increment; //!< of the last step, per time
+  MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
+  Predictor<dim>                       predictor;      //!< on a moving geometry
+  std::vector<double> largest_contact_force;           //!< on each body in this step's iterations
   std::set<std::pair<unsigned int, unsigned int>> warned_pairs; //!< told once
   std::vector<bool>          was_closed;  //!< contact points, at the end of some step
   std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration

@@ -4,7 +4,7 @@
 #include <scree/bodies/rigid_body.h>
 #include <scree/geometry/shape.h>
 #include <scree/level_set/lattice.h>
-#include <scree/material/material.h>
+#include <scree/material/increment_law.h>
 #include <scree/parameters/section.h>
 
 #include <map>
@@ -52,6 +52,8 @@ struct Body
   std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
   Expression<dim>                       body_force; //!< force per volume
   std::vector<BoundaryCondition<dim>>   conditions;
+  /** The law of moving geometry; null if the geometry stays or the body is rigid. */
+  std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
   /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
   typename RigidPose<dim>::Unknowns pose = {};
 

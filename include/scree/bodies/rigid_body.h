@@ -1,10 +1,12 @@
 #pragma once
 
 #include <scree/base/expression.h>
+#include <scree/geometry/shape.h>
 #include <scree/level_set/lattice.h>
 #include <scree/parameters/section.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,14 +44,16 @@ public:
   /**
    * @param box     of the shape; its centre is the default of the reference point
    * @param picture coarse level set of the whole body
+   * @param shape   at the initial position
    */
   RigidBody(const MotionParameters<dim> &parameters, const dealii::BoundingBox<dim> &box,
-            const Lattice<dim> &picture);
+            const Lattice<dim> &picture, const std::shared_ptr<const Shape<dim>> &shape);
 
   dealii::Point<dim>       reference_point;
   double                   radius;  //!< half the largest edge of its box [L], scales the rotations
   dealii::BoundingBox<dim> box;     //!< of the whole body
   Lattice<dim>             picture; //!< coarse level set of the whole body, for output
+  std::shared_ptr<const Shape<dim>> shape; //!< at the initial position
 
   /** Whether the motion of a component is unknown, its force or moment given. */
   bool is_free(const unsigned int component) const

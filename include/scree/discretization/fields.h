@@ -168,6 +168,23 @@ private:
   dealii::AffineConstraints<double>  constraints;
 };
 
+/**
+ * Nodal values of a ghosted vector, component by component of the nodes of one active cell after
+ * the other: entry (cell n_nodes + node) dim + component.
+ */
+template <int dim, typename Vector>
+std::vector<double>
+values_by_cell(const Fields<dim> &fields, const Vector &u)
+{
+  std::vector<double> result;
+  result.reserve(fields.cells().size() * fields.basis.n_nodes * dim);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.push_back(u(fields.nodes(a)[i] + d));
+  return result;
+}
+
 /** The unknowns of a rigid body in a ghosted vector. */
 template <int dim, typename Vector>
 typename RigidPose<dim>::Unknowns

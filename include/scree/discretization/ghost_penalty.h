@@ -41,6 +41,14 @@ public:
    */
   dealii::FullMatrix<double> matrix(const GhostFace &face);
 
+  /** The same on the distinct nodes of the two cells. */
+  struct Block
+  {
+    std::vector<DofIndex>      nodes;
+    dealii::FullMatrix<double> matrix;
+  };
+  Block block(const GhostFace &face);
+
 private:
   dealii::FullMatrix<double> unit_matrix(const unsigned int            face,
                                          const dealii::Tensor<1, dim> &offset,

@@ -3,6 +3,9 @@
 #include <scree/geometry/shape.h>
 #include <scree/level_set/lattice.h>
 
+#include <optional>
+#include <string>
+
 namespace scree
 {
 /**
@@ -17,4 +20,9 @@ namespace scree
 template <int dim>
 Lattice<dim> make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, double margin,
                           const std::string &where = "Shape");
+
+/** The same, or nothing if no node is inside the shape. */
+template <int dim>
+std::optional<Lattice<dim>> find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame,
+                                         double margin, const std::string &where = "Shape");
 } // namespace scree

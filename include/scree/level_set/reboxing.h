@@ -24,6 +24,14 @@ template <int dim>
 NodeBox<dim> node_box_of_body(const Lattice<dim> &lattice, double margin);
 
 /**
+ * The same for a body that `box` clips: nodes beyond it do not count, and where negative nodes
+ * reach a face of it the lattice keeps its end.
+ */
+template <int dim>
+NodeBox<dim> node_box_of_body(const Lattice<dim> &lattice, double margin,
+                              const dealii::BoundingBox<dim> &box);
+
+/**
  * A dense lattice on another box. Nodes of both keep their values. The others take the distance to
  * the closest point that a search finds on the contour of the cubic interpolant, with the sign of
  * the nearest old node; without one the value that the lattice has beyond its box.
@@ -38,4 +46,8 @@ Lattice<dim> reboxed(const Lattice<dim> &lattice, const NodeBox<dim> &box);
  */
 template <int dim>
 bool follow_body(Lattice<dim> &lattice, double margin);
+
+/** The same for a body that `box` clips, see node_box_of_body(). */
+template <int dim>
+bool follow_body(Lattice<dim> &lattice, double margin, const dealii::BoundingBox<dim> &box);
 } // namespace scree

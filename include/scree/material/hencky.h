@@ -20,7 +20,7 @@ public:
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = true;
+    static constexpr WorkOf work = WorkOf::current;
 
     explicit Point(const LogarithmicStrain &strain);
 
@@ -42,8 +42,9 @@ private:
 
 /**
  * Multiplicative J2 plasticity in logarithmic strains with linear isotropic hardening: Hencky's
- * law gives the trial stress of `b_e^tr = F_D b_e,n F_D^T`, RadialReturn the stress, and the
- * elastic strain of that stress is carried as `ln b_e`. The flow is isochoric, `det b_e = J^2`.
+ * law gives the trial stress of `b_e^tr = F_D b_e,n F_D^T`, RadialReturn the stress and with it
+ * the elastic strain `1/2 ln b_e`. Carried is the plastic metric `C_p^{-1} = F^{-1} b_e F^{-T}`,
+ * which neither elastic increments nor rotations change. The flow is isochoric, `det C_p = 1`.
  *
  *     psi = lambda/2 (tr eps_e)^2 + mu eps_e : eps_e + H/2 alpha^2
  *
@@ -52,11 +53,11 @@ private:
 class HenckyPlasticity
 {
 public:
-  static constexpr InternalTensor internal = InternalTensor::logarithmic_strain;
+  static constexpr InternalTensor internal = InternalTensor::plastic_metric;
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = true;
+    static constexpr WorkOf work = WorkOf::current;
 
     Point(const LogarithmicStrain &trial_strain, const RadialReturn &flow);
 

@@ -33,10 +33,13 @@ struct PointHistory
 /** The history of a point in the form that every Newton iteration of the step uses. */
 struct IncrementStart
 {
-  /** `b_e` of finite-strain laws [-], the Cauchy stress of small-strain laws. */
+  /** What the law carries: see IncrementLaw::start(). */
   dealii::Tensor<2, 3> tensor;
 
-  /** `J_n`: volume at the start of the step per reference volume; 1 for small-strain laws. */
+  /** `F_n`, in plane strain with the out-of-plane stretch 1 [-]. */
+  dealii::Tensor<2, 3> deformation_gradient;
+
+  /** `J_n`: volume at the start of the step per reference volume; 1 for laws that carry sigma. */
   double volume_ratio = 1;
 
   /** `alpha_n`, not negative. */
@@ -47,13 +50,13 @@ struct IncrementStart
 template <int dim>
 struct IncrementResponse
 {
-  /** `P = J_D sigma F_D^{-T}`: stress for `int_{Omega_n} P : grad v dV` (`sigma` if linear). */
+  /** The stress `P` of `int_{Omega_n} P : grad v dV`. */
   dealii::Tensor<2, dim> piola;
 
-  /** Cauchy stress. */
+  /** Cauchy stress; the stress of the linear theory if the law has no geometric terms. */
   dealii::SymmetricTensor<2, 3> cauchy;
 
-  /** PointHistory::internal at the end of the increment. */
+  /** The internal tensor at the end of the increment as IncrementLaw::finish() takes it. */
   dealii::SymmetricTensor<2, 3> internal;
 
   /** PointHistory::alpha at the end of the increment. */
@@ -69,18 +72,26 @@ struct IncrementResponse
 /** Which tensor PointHistory::internal is. */
 enum class InternalTensor
 {
-  none,               // the deformation gradient says all
-  logarithmic_strain, // ln b_e
-  cauchy_stress       // sigma
+  none,           // the deformation gradient says all
+  plastic_metric, // ln C_p^{-1}, trace 0, of the reference configuration; b_e = F C_p^{-1} F^T
+  plastic_strain, // eps_p of small strain, trace 0, of the reference configuration
+  cauchy_stress   // sigma
 };
 
 /**
  * A constitutive law in increments: with the deformation gradient `F_D = I + grad du` of a step
  * on the configuration `Omega_n` at its start, and the history at that start, the stress `P` with
  *
- *     R(v) = int_{Omega_n} P : grad v dV,    P = J_D sigma F_D^{-T} = tau F_D^{-T} / J_n,
+ *     R(v) = int_{Omega_n} P : grad v dV,
  *
- * and its exact derivative `A = dP/dF_D`. In two dimensions the strain is plane (`F_zz = 1`).
+ * and its exact derivative `A = dP/dF_D`. There are three kinds of laws:
+ *
+ *     finite strain               P = J_D sigma F_D^{-T} = tau F_D^{-T}/J_n
+ *     small strain, total         P = sigma F_n^T/J_n, so that R(v) = int_{Omega_0} sigma : grad_X
+ * v small strain, incremental   P = sigma
+ *
+ * A total law gives the equations of the linear theory on the reference configuration whatever the
+ * configuration they are integrated on. In two dimensions the strain is plane (`F_zz = 1`).
  * Stresses, energies and moduli have the unit of Young's modulus.
  *
  * If `det F_D <= 0`, which a Newton iteration may try, the stress, the tangent and the energy of a
@@ -98,13 +109,26 @@ public:
   /**
    * The start of a step from interpolated or carried history; needed once per step and point.
    *
-   *     internal() == none:               b_e = F F^T,              J_n = det F
-   *     internal() == logarithmic_strain: b_e = exp(ln b_e),        J_n = det F
-   *     internal() == cauchy_stress:      sigma_n,                  J_n = 1
+   *     internal() == none:             b_e = F F^T,                       J_n = det F
+   *     internal() == plastic_metric:   b_e = F exp(ln C_p^{-1}) F^T,      J_n = det F
+   *     internal() == plastic_strain:   eps_p,                             J_n = det F
+   *     internal() == cauchy_stress:    sigma_n,                           J_n = 1
    *
    * A negative alpha, which an interpolation may produce, is clipped.
    */
   IncrementStart start(const PointHistory<dim> &history) const;
+
+  /**
+   * The history after the accepted increment `F_D` from `history`, given the response to it; needed
+   * once per step and point. `F = F_D F_n`, and
+   *
+   *     internal() == plastic_metric:   ln C_p^{-1} = ln(F^{-1} b_e F^{-T})
+   *
+   * with the `b_e` at the end, whose logarithm the response holds. A point without plastic flow
+   * keeps its plastic metric or plastic strain to the last bit.
+   */
+  PointHistory<dim> finish(const PointHistory<dim> &history, const dealii::Tensor<2, dim> &F_D,
+                           const IncrementResponse<dim> &response) const;
 
   /**
    * Responses at all points of `increments` (`F_D`), and the tangents `A_iJkL = dP_iJ/dF_D,kL`
@@ -119,10 +143,12 @@ public:
 /** Names of the laws that make_increment_law() knows. */
 std::vector<std::string> increment_laws();
 
+/** Whether the law of that name has a yield stress; false if there is no such law. */
+bool is_plastic(const std::string &law);
+
 /**
  * The law of the name `parameters.law` with E and nu, and with the yield stress and the hardening
- * modulus if it is plastic. Laws called "rotated" are small-strain laws that turn the old stress
- * with the rotation of the increment.
+ * modulus if it is plastic.
  *
  * @throws UserError if there is no law of that name, or if a constant is missing, not allowed, or
  *         given to a law that has none

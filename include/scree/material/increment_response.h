@@ -9,35 +9,70 @@ namespace scree
 /** What a law computes at one point before it is pulled back to `Omega_n`. */
 struct KirchhoffStress
 {
-  dealii::Tensor<2, 3> kirchhoff; // tau; J_D sigma for small-strain laws
-  dealii::Tensor<2, 3> internal;  // of the history at the end
+  dealii::Tensor<2, 3> kirchhoff; // tau; J_D sigma of rotated laws, sigma of the linear theory
+  dealii::Tensor<2, 3> internal;  // that of IncrementResponse
   double               alpha       = 0;
   double               energy      = 0;
   double               dissipation = 0;
 };
 
-/** `F_D` with three rows: in plane strain the out-of-plane stretch is 1. */
+/** On which configuration the stress of a law does its work. */
+enum class WorkOf
+{
+  current,   // tau : grad_x v, on the end of the step: geometric terms
+  start,     // sigma : grad v on Omega_n
+  reference, // sigma : grad_X v on Omega_0
+};
+
+/** A deformation gradient with three rows: in plane strain the out-of-plane stretch is 1. */
 template <int dim>
 dealii::Tensor<2, 3>
-embed(const dealii::Tensor<2, dim> &increment)
+embed(const dealii::Tensor<2, dim> &gradient)
 {
   dealii::Tensor<2, 3> F;
   F[2][2] = 1;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
-      F[i][j] = increment[i][j];
+      F[i][j] = gradient[i][j];
   return F;
+}
+
+/** The answer to `det F_D <= 0`. */
+template <int dim>
+void
+set_not_a_number(IncrementResponse<dim> &response, dealii::Tensor<4, dim> *tangent)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  response             = IncrementResponse<dim>();
+  response.energy      = nan;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      {
+        response.piola[i][j]  = nan;
+        response.cauchy[i][j] = nan;
+        if (tangent)
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = 0; l < dim; ++l)
+              (*tangent)[i][j][k][l] = nan;
+      }
 }
 
 /**
  * One point of IncrementLaw::respond(). A type `Point` is a KirchhoffStress, constructed by
- * `law.at(F_D, J_D, start)`, with
+ * `law.at(F_D, J_D, start)` (`J_D = 1` without geometric terms), with
  *
- *     Point::is_geometric      whether P = tau F_D^{-T}/J_n (else P = tau, the linear theory)
- *     derivative(k, f)         d tau for a velocity gradient dF_D F_D^{-1} = e_k (x) f
+ *     Point::work              the configuration on which its stress works
+ *     derivative(k, f)         d tau for a velocity gradient e_k (x) f
  *
- * so that with the row f of `F_D^{-1}` that belongs to L, `dP/dF_D,kL = (d tau - (tau f) (x) e_k)
- * F_D^{-T}/J_n`, where the second term comes from the derivative of `F_D^{-T}`.
+ * The gradient of a test function there is `grad v pull`, and that of a change of the increment
+ * `dF_D,kL = 1` is `e_k (x) f` with the row `f` of `pull` that belongs to L:
+ *
+ *     WorkOf::current      pull = F_D^{-1}
+ *     WorkOf::start        pull = I
+ *     WorkOf::reference    pull = F_n
+ *
+ * so that `P = tau pull^T/J_n` and `dP/dF_D,kL = (d tau - (tau f) (x) e_k) pull^T/J_n`, where the
+ * second term comes from the derivative of `F_D^{-T}` and exists for WorkOf::current only.
  */
 template <int dim, class Law>
 void
@@ -47,36 +82,27 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
 {
   using namespace dealii;
   using Point                     = typename Law::Point;
-  constexpr double   nan          = std::numeric_limits<double>::quiet_NaN();
-  constexpr bool     is_geometric = Point::is_geometric;
+  constexpr bool     is_geometric = Point::work == WorkOf::current;
   const Tensor<2, 3> F            = embed<dim>(increment);
   const double       volume_step  = is_geometric ? determinant(F) : 1;
   if (!(volume_step > 0))
-    {
-      response = IncrementResponse<dim>();
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          {
-            response.piola[i][j]  = nan;
-            response.cauchy[i][j] = nan;
-            if (tangent)
-              for (unsigned int k = 0; k < dim; ++k)
-                for (unsigned int l = 0; l < dim; ++l)
-                  (*tangent)[i][j][k][l] = nan;
-          }
-      response.energy = nan;
-      return;
-    }
-  const Tensor<2, 3> inverse
-    = is_geometric ? invert(F) : embed<dim>(Tensor<2, dim>(unit_symmetric_tensor<dim>()));
+    return set_not_a_number(response, tangent);
+  Tensor<2, 3> pull;
+  if constexpr (is_geometric)
+    pull = invert(F);
+  else if constexpr (Point::work == WorkOf::reference)
+    pull = start.deformation_gradient;
+  else
+    pull = embed<dim>(Tensor<2, dim>(unit_symmetric_tensor<dim>()));
   const Point  point = law.at(F, volume_step, start);
   const double scale = 1 / start.volume_ratio;
 
-  const Tensor<2, 3> piola = scale * point.kirchhoff * transpose(inverse);
+  const Tensor<2, 3> piola = scale * point.kirchhoff * transpose(pull);
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
       response.piola[i][j] = piola[i][j];
-  response.cauchy      = symmetrize(point.kirchhoff * (scale / volume_step));
+  response.cauchy
+    = symmetrize(is_geometric ? point.kirchhoff * (scale / volume_step) : point.kirchhoff);
   response.internal    = symmetrize(point.internal);
   response.alpha       = point.alpha;
   response.energy      = point.energy;
@@ -86,7 +112,7 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
 
   for (unsigned int l = 0; l < dim; ++l)
     {
-      const Tensor<1, 3> f        = inverse[l];
+      const Tensor<1, 3> f        = pull[l];
       const Tensor<1, 3> traction = point.kirchhoff * f;
       for (unsigned int k = 0; k < dim; ++k)
         {
@@ -99,7 +125,7 @@ respond_at_point(const Law &law, const dealii::Tensor<2, dim> &increment,
               {
                 double sum = 0;
                 for (unsigned int m = 0; m < dim; ++m)
-                  sum += change[i][m] * inverse[j][m];
+                  sum += change[i][m] * pull[j][m];
                 (*tangent)[i][j][k][l] = scale * sum;
               }
         }

@@ -28,8 +28,8 @@ struct MaterialParameters
   double density = 0;
 
   /**
-   * Yield stress sigma_y > 0 and hardening modulus H >= 0 of plastic laws [force/length^2]; NaN:
-   * not set. Not an entry of a parameter file: make_increment_law() alone uses them.
+   * Yield stress sigma_y > 0 and hardening modulus H >= 0 [force/length^2]; NaN: not set, as it
+   * must be for laws that are not plastic.
    */
   double yield_stress      = std::numeric_limits<double>::quiet_NaN();
   double hardening_modulus = std::numeric_limits<double>::quiet_NaN();
@@ -46,11 +46,17 @@ struct MaterialParameters
  */
 std::map<std::string, MaterialParameters> declare_materials(const ParameterSection &root);
 
-/** @throws UserError unless E, nu and the density of a deformable material are allowed. */
-void check_elastic_constants(const MaterialParameters &parameters);
+/** @throws UserError unless all constants are set and allowed that the law has, and no others. */
+void check_constants(const MaterialParameters &parameters);
 
-/** The names a material law may have, in the order of registration. */
+/** The names a material law may have: the laws in increments and rigid. */
 std::vector<std::string> material_laws();
+
+/**
+ * Whether the law of that name is one for bodies that move with their material points: all but
+ * "linear elastic", which is the same on a fixed geometry and on one that moves, and "rigid".
+ */
+bool needs_moving_geometry(const std::string &law);
 
 /**
  * A constitutive law at small strain `eps = sym grad u`; stress is positive in tension. In two
@@ -109,7 +115,9 @@ private:
 };
 
 /**
- * The law that `parameters` names; none (null) for a rigid material.
+ * The law at small strain of the material: LinearElastic with the moduli at zero strain, whatever
+ * deformable law `parameters` names (the whole law is that of make_increment_law()); none (null)
+ * for a rigid material. Penalties, supports and estimates take their moduli from it.
  *
  * @throws UserError if there is no law of that name or a constant is not allowed
  */

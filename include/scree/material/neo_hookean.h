@@ -18,7 +18,7 @@ public:
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = true;
+    static constexpr WorkOf work = WorkOf::current;
 
     /** `mu (l b + b l^T) + lambda tr(l) I` for `l = e_k (x) f`. */
     dealii::Tensor<2, 3> derivative(const unsigned int k, const dealii::Tensor<1, 3> &f) const;

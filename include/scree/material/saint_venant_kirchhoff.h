@@ -21,7 +21,7 @@ public:
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = true;
+    static constexpr WorkOf work = WorkOf::current;
 
     /** `lambda (tr(db)/2 b + tr(e) db) + mu (db b + b db - db)`, `db = l b + b l^T`. */
     dealii::Tensor<2, 3> derivative(const unsigned int k, const dealii::Tensor<1, 3> &f) const;

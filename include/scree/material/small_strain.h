@@ -6,32 +6,85 @@
 
 namespace scree
 {
+/** The answer of a law whose stress is linear in the gradient and works on one configuration. */
+template <WorkOf configuration>
+struct LinearPoint : KirchhoffStress
+{
+  static constexpr WorkOf work = configuration;
+
+  /** Change of the stress with a change `e_k (x) f` of the gradient. */
+  dealii::Tensor<2, 3> derivative(const unsigned int k, const dealii::Tensor<1, 3> &f) const;
+
+  IsotropicModuli moduli;
+};
+
 /**
- * Small-strain isotropic law in increments, elastic or, with a finite yield stress, J2 plastic:
- *
- *     sigma^tr = sigma_n + lambda tr(de) I + 2 mu de,    de = sym(F_D - I),    P = sigma,
- *
- * and sigma the RadialReturn of the trial stress. No geometric terms; `F_D = I + grad du`.
+ * The linear theory in total strains, `sigma = lambda tr(eps) I + 2 mu eps` with `eps = sym(F -
+ * I)`. The stress works on the reference configuration; the energy is per volume of it.
  */
 class SmallStrain
 {
 public:
+  static constexpr InternalTensor internal = InternalTensor::none;
+
+  using Point = LinearPoint<WorkOf::reference>;
+
+  explicit SmallStrain(const IsotropicModuli &moduli);
+
+  /** The point after the increment `F_D`. */
+  Point at(const dealii::Tensor<2, 3> &F_D, const double, const IncrementStart &start) const;
+
+private:
+  IsotropicModuli moduli;
+};
+
+/**
+ * Linear elasticity in increments on the configuration at the start of each step,
+ * `sigma = sigma_n + lambda tr(de) I + 2 mu de` with `de = sym(F_D - I)`.
+ */
+class SmallStrainIncremental
+{
+public:
   static constexpr InternalTensor internal = InternalTensor::cauchy_stress;
+
+  using Point = LinearPoint<WorkOf::start>;
+
+  explicit SmallStrainIncremental(const IsotropicModuli &moduli);
+
+  /** The point after the increment `F_D`. */
+  Point at(const dealii::Tensor<2, 3> &F_D, const double, const IncrementStart &start) const;
+
+private:
+  IsotropicModuli moduli;
+};
+
+/**
+ * J2 plasticity of the linear theory in total strains:
+ *
+ *     eps = sym(F - I),    sigma^tr = lambda tr(eps) I + 2 mu (eps - eps_p,n),
+ *
+ * sigma the RadialReturn of the trial stress and `eps_p = eps_p,n + (sigma^tr - sigma)/(2 mu)`. The
+ * stress works on the reference configuration; the energy is per volume of it.
+ */
+class SmallStrainPlasticity
+{
+public:
+  static constexpr InternalTensor internal = InternalTensor::plastic_strain;
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = false;
+    static constexpr WorkOf work = WorkOf::reference;
 
     explicit Point(const RadialReturn &flow);
 
-    /** Change of the stress with `d grad du = e_k (x) f`. */
+    /** Change of the stress with `dF = e_k (x) f`. */
     dealii::Tensor<2, 3> derivative(const unsigned int k, const dealii::Tensor<1, 3> &f) const;
 
     RadialReturn    flow;
     IsotropicModuli moduli;
   };
 
-  SmallStrain(const IsotropicModuli &moduli, const Hardening &hardening);
+  SmallStrainPlasticity(const IsotropicModuli &moduli, const Hardening &hardening);
 
   /** The point after the increment `F_D`. */
   Point at(const dealii::Tensor<2, 3> &F_D, const double, const IncrementStart &start) const;
@@ -42,8 +95,8 @@ private:
 };
 
 /**
- * The same law for small strains and large rotations: the old stress turns with the rotation `R` of
- * the increment, `F_D = V R`,
+ * Elasticity or J2 plasticity at small strains and large rotations: the old stress turns with the
+ * rotation `R` of the increment, `F_D = V R`,
  *
  *     sigma^tr = R sigma_n R^T + lambda tr(de) I + 2 mu de,    de = ln V,
  *     P        = J_D sigma F_D^{-T}.
@@ -59,7 +112,7 @@ public:
 
   struct Point : KirchhoffStress
   {
-    static constexpr bool is_geometric = true;
+    static constexpr WorkOf work = WorkOf::current;
 
     Point(const LogarithmicStrain &strain, const PolarRotation &rotation, const RadialReturn &flow);
 

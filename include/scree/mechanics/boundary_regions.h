@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/discretization/cut_quadrature.h>
+#include <scree/mechanics/step_start.h>
 
 #include <vector>
 
@@ -15,6 +16,10 @@ struct BoundaryPoint
   dealii::Point<dim>     position;
   dealii::Tensor<1, dim> normal; //!< out of the body
   double                 weight; //!< length or area
+  // On a moving geometry what the point was at the start of the run and did since then.
+  dealii::Point<dim>     reference_position; //!< where formulas are evaluated
+  dealii::Tensor<1, dim> start_displacement; //!< u_n [L]
+  double                 area_ratio = 1.;    //!< of reference area to area at the start of the step
 };
 
 /** One boundary condition of one body, with the points of its region on this process. */
@@ -31,12 +36,16 @@ struct BoundaryRegion
 
 /**
  * The regions of all conditions that are integrals, on this process: points on the cut surface, or
- * of {phi < 0} on a face of the box. Mean supports number their multipliers in this order.
+ * of {phi < 0} on a face of the box. On a moving geometry the formulas of the regions see the
+ * reference positions, so that regions move with their bodies. Mean supports number their
+ * multipliers in this order.
  *
+ * @param start of the step; null on a fixed geometry
  * @throws UserError if a region selects nothing
  */
 template <int dim>
 std::vector<BoundaryRegion<dim>>
 find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies);
+                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
+                      const StepStart<dim> *start);
 } // namespace scree

@@ -10,8 +10,12 @@ namespace scree
 {
 /**
  * All boundary conditions that are integrals over a region: tractions, pressures, springs,
- * displacements by Nitsche or penalty, mean supports (method.md section 7). The regions are fixed
- * in the initial configuration; their points are found once.
+ * displacements by Nitsche or penalty, mean supports (method.md section 7).
+ *
+ * On a fixed geometry all of them are linear in u. On a moving one u is the increment since the
+ * start of the step, conditions act on u_n + u; tractions are forces per reference area, pressures
+ * follow the surface, -p J_D F_D^{-T} n, and Nitsche's condition takes the stress vector P(F_D) n;
+ * its adjoint term has the elastic moduli at zero strain.
  */
 template <int dim>
 class BoundaryTerms
@@ -19,9 +23,13 @@ class BoundaryTerms
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  /** @throws UserError if a region selects nothing */
+  /**
+   * @param start of the step on a moving geometry; null: the geometry is fixed
+   * @throws UserError if a region selects nothing
+   */
   BoundaryTerms(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies);
+                const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
+                const StepStart<dim> *start = nullptr);
 
   /** Number of multipliers that the mean supports of the bodies need. */
   static unsigned int n_multipliers(const std::vector<Body<dim>> &bodies);
@@ -31,7 +39,7 @@ public:
     return boundary_regions;
   }
 
-  /** Adds the matrix of springs, Nitsche, penalty and multiplier rows. */
+  /** Adds the matrix of what is linear: springs, Nitsche, penalty and multiplier rows. */
   void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /**
@@ -40,6 +48,13 @@ public:
    */
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const;
+
+  /** Adds what is not linear on a moving geometry, at the ghosted increment u and time `time`. */
+  void add_internal_forces(const Vector &u, const double time, Vector &forces) const;
+
+  /** Adds its derivative. */
+  void add_tangent(const Vector &u, const double time,
+                   dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /** Nodes that couple through multiplier rows, as unknowns. */
   std::vector<std::vector<DofIndex>> multiplier_couplings() const;
@@ -65,6 +80,21 @@ public:
   double beta(const BoundaryRegion<dim> &region, const unsigned int q) const;
 
 private:
+  /** Whether the condition has a term that is not linear. */
+  bool is_nonlinear(const BoundaryRegion<dim> &region) const;
+  /** The law's answer to the increment u at a point, F_D and unit gradients; boundary_increment.cc.
+   */
+  struct PointIncrement;
+  PointIncrement increment_at(const unsigned int region, const unsigned int q, const Vector &u,
+                              const bool with_tangent) const;
+  /** P n. */
+  dealii::Tensor<1, dim> stress_vector(const BoundaryRegion<dim> &region, const unsigned int q,
+                                       const Vector &u) const;
+  /** The part of a pressure that follows the surface, J_D F_D^{-T} n. */
+  dealii::Tensor<1, dim> turned_normal(const BoundaryRegion<dim> &region, const unsigned int q,
+                                       const Vector &u) const;
+  void                   find_starts();
+
   /** sigma(N_a e_i) n for all unknowns of the cell at a point. */
   void stress_vectors(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                       ShapeValues<dim> &shape, std::vector<dealii::Tensor<1, dim>> &vectors) const;
@@ -78,8 +108,10 @@ private:
   void add_multiplier_resultant(const BoundaryRegion<dim> &region, const Vector &u,
                                 Resultant<dim> &resultant) const;
 
-  const Fields<dim>               &fields;
-  const std::vector<Body<dim>>    &bodies;
-  std::vector<BoundaryRegion<dim>> boundary_regions;
+  const Fields<dim>                       &fields;
+  const std::vector<Body<dim>>            &bodies;
+  std::vector<BoundaryRegion<dim>>         boundary_regions;
+  const StepStart<dim>                    *start;
+  std::vector<std::vector<IncrementStart>> starts; //!< of the points of nonlinear regions
 };
 } // namespace scree

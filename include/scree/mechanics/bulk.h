@@ -2,6 +2,7 @@
 
 #include <scree/discretization/cut_quadrature.h>
 #include <scree/discretization/ghost_penalty.h>
+#include <scree/mechanics/step_start.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -22,8 +23,13 @@ struct BulkSample
 };
 
 /**
- * The elastic bulk on cut cells: int sigma(u) : grad v over the physical part, plus the ghost
- * penalty gamma (2 mu + lambda) s_h(u, v) (method.md section 7).
+ * The bulk on cut cells: int sigma(u) : grad v over the physical part, plus the ghost penalty
+ * gamma (2 mu + lambda) s_h(u, v) (method.md section 7).
+ *
+ * On a fixed geometry it is linear elastic in the total displacement u. On a moving one u is the
+ * increment since the start of the step and the laws in increments give int P(F_D) : grad v over
+ * Omega_n, which is no matrix but forces and a tangent at u; forces per volume then are those per
+ * reference volume.
  */
 template <int dim>
 class Bulk
@@ -31,20 +37,40 @@ class Bulk
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+  /** @param start of a step on a moving geometry; null: the geometry is fixed */
   Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-       const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor);
+       const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+       const StepStart<dim> *start = nullptr);
 
-  /** Adds the stiffness matrix; hanging nodes are condensed. */
+  /** Adds what is linear: the ghost penalty and, on a fixed geometry, the stiffness; hanging nodes
+   * are condensed. */
   void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix);
 
   /** Adds int b . v at time `time`. */
   void add_body_forces(Vector &loads, const double time) const;
 
+  /** Adds int P : grad v at the ghosted increment u; nothing on a fixed geometry. */
+  void add_internal_forces(const Vector &u, Vector &forces) const;
+
+  /** Adds its derivative. */
+  void add_tangent(const Vector &u, dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  /** What the laws did with the increment u, over all bodies and processes [force L]. */
+  struct Work
+  {
+    double energy      = 0.; //!< stored
+    double dissipation = 0.; //!< plastic, in this step
+  };
+  Work work(const Vector &u) const;
+
+  /** The start of the step, null on a fixed geometry. */
+  const StepStart<dim> *step_start() const
+  {
+    return start;
+  }
+
   /** Which nodes couple, cell by cell and ghost face by ghost face. */
   std::vector<std::vector<DofIndex>> couplings() const;
-
-  /** Strain energy of each body for ghosted u, summed over the processes. */
-  std::vector<double> strain_energy(const Vector &u) const;
 
   /** Energy of the ghost penalty, summed over the processes. */
   double ghost_energy(const Vector &u);
@@ -70,12 +96,33 @@ private:
     double                    weight_scale;
   };
   CellRule rule(const unsigned int active_cell) const;
-  void     cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const;
+
+  // Moving geometry, bulk_increment.cc.
+  void set_up_increments();
+  /** Points of a cell with the laws' answers. */
+  struct CellIncrement;
+  /** Calls f(cell) for all owned cells at increment u. */
+  template <typename Function>
+  void            for_each_cell(const Vector &u, const bool with_tangents, const Function &f) const;
+  BulkSample<dim> increment_sample(const PointInCell<dim>       &point,
+                                   const dealii::Tensor<1, dim> &displacement,
+                                   const dealii::Tensor<2, dim> &gradient) const;
+  double          linear_strain_energy(const Vector &u) const;
+
+  void cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const;
 
   const Fields<dim>            &fields;
   const CutQuadrature<dim>     &quadrature;
   const std::vector<Body<dim>> &bodies;
   const double                  gamma;
   GhostPenalty<dim>             ghost_penalty;
+
+  const StepStart<dim>       *start;
+  std::vector<IncrementStart> starts;          //!< at all points, cell after cell
+  std::vector<double>         volume_ratios;   //!< J_n at all points
+  std::vector<std::size_t>    first_point;     //!< of each owned cell
+  std::vector<double>         cut_gradients;   //!< of the basis at points of cut cells
+  std::vector<std::size_t>    first_gradient;  //!< of each owned cell
+  std::vector<double>         whole_gradients; //!< of the basis for unit edge
 };
 } // namespace scree

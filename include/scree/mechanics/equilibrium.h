@@ -13,26 +13,38 @@ namespace scree
 /** Energies at a state and the work between states [force L]. */
 struct Energies
 {
-  double strain        = 0.;
-  double ghost_penalty = 0.; //!< stored in the ghost penalty
+  double strain = 0.; //!< stored by the laws
+  double ghost_penalty
+    = 0.; //!< stored in the ghost penalty; moving geometry: spent, since the start
   double boundary      = 0.; //!< stored in springs, Nitsche and penalty terms
   double contact       = 0.; //!< stored in the contact penalties
   double dissipation   = 0.; //!< by friction, since the start
+  double plastic       = 0.; //!< plastic dissipation, since the start
   double external_work = 0.; //!< by the trapezoidal rule, since the start
+  double transfer      = 0.; //!< gained where the geometry moved between steps, since the start
 
-  /** external work minus all that was stored or dissipated */
+  /** What a step's start and end can be compared in. */
+  double stored() const
+  {
+    return strain + boundary + contact;
+  }
+
+  /** external work and transfer minus all that was stored or dissipated */
   double balance_error() const
   {
-    return external_work - strain - ghost_penalty - boundary - contact - dissipation;
+    return external_work + transfer - stored() - ghost_penalty - dissipation - plastic;
   }
 };
 
 /**
- * The discrete equilibrium r(u) = f(t) - A u - R_contact(u) = 0 of all bodies on a fixed geometry,
- * and its tangent K = A + dR_contact/du. A (bulk, ghost penalty, Nitsche, springs, multipliers) is
- * linear and assembled once; prescribed unknowns are kept in u and eliminated from K, so that A
- * also gives their reactions (method.md sections 3, 7, 8). Rigid bodies have rows without A, their
- * loads f depend on the pose.
+ * The discrete equilibrium r(u) = f(t) - A u - R(u) - R_contact(u) = 0 of all bodies and its
+ * tangent K = A + dR/du + dR_contact/du. A is linear and assembled once; prescribed unknowns are
+ * kept in u and eliminated from K, so that the terms also give their reactions (method.md sections
+ * 3, 7, 8). Rigid bodies have rows without A, their loads f depend on the pose.
+ *
+ * On a fixed geometry u is the total displacement, A holds bulk, ghost penalty, Nitsche, springs
+ * and multipliers, and R = 0. On a moving one u is the increment since the start of the step (of
+ * rigid bodies the whole motion) and R holds the laws in increments and what follows the surface.
  */
 template <int dim>
 class Equilibrium
@@ -43,6 +55,13 @@ public:
 
   Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
+
+  /**
+   * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
+   * and multipliers. `energies` are those at the end of the step before.
+   */
+  void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
+                  const Energies &energies);
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
@@ -110,6 +129,12 @@ public:
   /** Whether the motion of a rigid body is unknown. */
   bool has_free_rigid_bodies() const;
 
+  /** Whether tangents change by contact alone. */
+  bool is_linear_but_for_contact() const
+  {
+    return bulk.step_start() == nullptr;
+  }
+
   const RigidBodies<dim> &rigid_bodies() const
   {
     return rigid;
@@ -150,6 +175,8 @@ private:
   void   reactions(Vector &result) const;
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);
+  void   remember_conditions(const Vector &with_ghost_values);
+  void   store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
@@ -171,6 +198,7 @@ private:
   Vector ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet ghosted_dofs;
   double           time              = 0.;
+  double           start_time        = 0.; //!< of the step on a moving geometry
   double           largest_stiffness = 0.; //!< largest diagonal entry of A
   double           displacement_norm = 0.; //!< |u| of the last residual()
 

@@ -15,11 +15,14 @@ struct PrescribedUnknown
   unsigned int       support; //!< index in StrongSupports::conditions()
   unsigned int       value;   //!< which value of the condition
   dealii::Point<dim> position;
+  dealii::Point<dim> reference_position; //!< where formulas are evaluated
 };
 
 /**
  * Displacements imposed on unknowns: of the nodes on a face of the background box, and of single
- * vertices (method.md section 5, box faces and supports).
+ * vertices (method.md section 5, box faces and supports). On a moving geometry the unknowns are
+ * increments, the formulas see the reference positions, and neither motions normal to a face nor
+ * those of vertices are possible, since box and grid stay.
  */
 template <int dim>
 class StrongSupports
@@ -27,8 +30,12 @@ class StrongSupports
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  /** @throws UserError if a condition selects nothing or two conditions contradict each other */
-  StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+  /**
+   * @param start of the step on a moving geometry; null: the geometry is fixed
+   * @throws UserError if a condition selects nothing or two conditions contradict each other
+   */
+  StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                 const StepStart<dim> *start = nullptr);
 
   /** Body and condition of each support. */
   const std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> &conditions() const
@@ -41,8 +48,11 @@ public:
     return prescribed;
   }
 
-  /** Sets the prescribed values of time `time` in u. */
-  void set(Vector &u, const double time) const;
+  /**
+   * Sets the prescribed values of time `time` in u; on a moving geometry those since `start_time`.
+   * @throws UserError for motions that are not possible there
+   */
+  void set(Vector &u, const double time, const double start_time) const;
 
   /** Zeros the prescribed entries. */
   void set_zero(Vector &r) const;
@@ -51,12 +61,15 @@ public:
   std::vector<Resultant<dim>> resultants(const Vector &forces) const;
 
 private:
-  void add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                   const unsigned int support);
-  bool is_prescribed_at(const BoundaryCondition<dim> &condition, const GridCell<dim> &cell,
-                        const dealii::Point<dim> &unit_node,
-                        const dealii::Point<dim> &position) const;
+  double increment(const PrescribedUnknown<dim> &unknown, const double time,
+                   const double start_time) const;
+  void   add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                     const unsigned int support);
+  bool   is_prescribed_at(const BoundaryCondition<dim> &condition, const GridCell<dim> &cell,
+                          const dealii::Point<dim> &unit_node,
+                          const dealii::Point<dim> &position) const;
 
+  const StepStart<dim>                                                *start;
   MPI_Comm                                                             communicator;
   std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> supports;
   std::vector<PrescribedUnknown<dim>>                                  prescribed;

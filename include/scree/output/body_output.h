@@ -10,7 +10,8 @@ namespace scree
 /**
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
  * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
- * displacement, stress, von Mises and principal stresses, undeformed (ParaView: Warp By Vector).
+ * displacement, stress, von Mises and principal stresses. On a fixed geometry they are undeformed
+ * (ParaView: Warp By Vector), on a moving one they are where they are at the end of the step.
  * Rigid bodies come whole, from their coarse lattice, without stress; the first process writes
  * them.
  */

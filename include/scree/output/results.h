@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/contact_memory.h>
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
@@ -23,6 +24,17 @@ struct StepRecord
   double       residual          = 0.; //!< |r| at the end
 };
 
+/** The bodies and their contact after the geometry moved at the end of a step. */
+template <int dim>
+struct MotionRecord
+{
+  std::vector<double>                volumes;   //!< of all bodies by their level sets [L^dim]
+  std::vector<PointTotals<dim>>      points;    //!< of all bodies
+  std::vector<TransferredForce<dim>> transfers; //!< of all pairs
+  MovingLeastSquaresReport           transfer_report;
+  unsigned int                       n_islands = 0;
+};
+
 /**
  * The files of a run: history.csv with a row per load step, VTU and CSV files of bodies and contact
  * with PVD records, tables of probes and lines. All functions are collective.
@@ -33,9 +45,11 @@ class Results
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  Results(const std::string &directory, const Fields<dim> &fields,
-          const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
+  Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes);
+
+  /** What the next results refer to; to be told whenever it was made anew. */
+  void set_discretization(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes);
 
   /** Names of the columns of history.csv, then those of probes.csv after the first. */
   std::vector<std::string> columns(const Equilibrium<dim>   &equilibrium,
@@ -44,9 +58,15 @@ public:
   /** The values of columns() at the last write_history() and write_probes(), on all processes. */
   std::vector<double> last_values() const;
 
-  /** Adds the row of an accepted state to history.csv. */
-  void write_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                     const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+  /** Gathers the row of an accepted state for history.csv. */
+  void gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
+                      const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+
+  /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
+  void gather_motion(const MotionRecord<dim> &motion);
+
+  /** Writes the gathered row. */
+  void write_history();
 
   /** Body VTU and lines. */
   void write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
@@ -71,12 +91,13 @@ private:
   unsigned int             body_index(const std::string &name) const;
 
   std::string                                 directory;
-  const Fields<dim>                          &fields;
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
-  BodyOutput<dim>                             body_output;
-  bool                                        is_first; //!< this process writes the tables
+  const Fields<dim>                          *fields = nullptr;
+  std::unique_ptr<BodyOutput<dim>>            body_output;
+  bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
+  std::vector<std::string>                    history_names;
   std::vector<double>                         history_row, probe_row; //!< the last ones
   std::vector<std::pair<double, std::string>> body_records, contact_records;
 };

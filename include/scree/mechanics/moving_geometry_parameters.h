@@ -1,0 +1,38 @@
+#pragma once
+
+#include <scree/base/enum_names.h>
+#include <scree/level_set/advection.h>
+#include <scree/parameters/section.h>
+
+namespace scree
+{
+/** Where material points start. */
+enum class PointPlaces
+{
+  sub_grid,         // m^dim per cell
+  quadrature_points // of the cut cells
+};
+
+/** Where the deformation gradient at the start of a step comes from. */
+enum class DeformationTransfer
+{
+  reference_map,       // F = (I - grad u)^{-1}, u = x - X fitted to the points
+  moving_least_squares // of the F that the points carry
+};
+
+/** Section Moving geometry: whether and how bodies move through the grid. */
+struct MovingGeometryParameters
+{
+  bool                is_moving            = false;
+  PointPlaces         places               = PointPlaces::sub_grid;
+  unsigned int        points_per_direction = 0; //!< of a cell; 0: degree + 1
+  DeformationTransfer deformation          = DeformationTransfer::reference_map;
+  double              support              = 1.75; //!< of moving least squares, in cells
+  IncrementMotion     motion               = IncrementMotion::semi_lagrangian;
+  double              slope_tolerance      = 0.1; //!< of ||grad phi| - 1| before reinitialisation
+  double              largest_motion       = 2.;  //!< of a body in a step, in finest cells
+  double              largest_slip         = 1.;  //!< of contact in a step, in finest cells
+
+  void declare(ParameterSection &section);
+};
+} // namespace scree

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <scree/discretization/fields.h>
+#include <scree/points/material_points.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <vector>
+
+namespace scree
+{
+/** A point in unit coordinates of an active cell. */
+template <int dim>
+struct PointInCell
+{
+  unsigned int       active_cell;
+  dealii::Point<dim> unit_point;
+};
+
+/**
+ * The active cell in or nearest to each material point; @throws ExcMessage if a point is farther
+ * than a cell from all active cells of its body.
+ */
+template <int dim>
+std::vector<PointInCell<dim>> locate_points(const Fields<dim>         &fields,
+                                            const MaterialPoints<dim> &points);
+
+/**
+ * The displacement u = x - X of the bodies as a finite element field: the minimum of
+ *
+ *     sum_p V_p |u(x_p) - (x_p - X_p)|^2 + gamma h^2 s_h(u, u)
+ *
+ * over the nodes, s_h the jumps of GhostPenalty, which continue u to nodes of cut cells that have
+ * no points; gamma = 1e-4 is small, so that a displacement of the space is its own fit but for
+ * gamma times its jumps there. Since the reference positions X_p never change, no error of a
+ * gradient adds up from step to step (reference map technique: Kamrin, Rycroft, Nave, J. Mech.
+ * Phys. Solids 60, 2012, there with finite differences). Collective.
+ *
+ * @param locations of the points, from locate_points()
+ * @return owned unknowns [L]; zero for those that belong to no node
+ */
+template <int dim>
+dealii::TrilinosWrappers::MPI::Vector
+fit_displacement(const Fields<dim> &fields, const MaterialPoints<dim> &points,
+                 const std::vector<PointInCell<dim>> &locations);
+} // namespace scree

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <scree/mechanics/moving_geometry_parameters.h>
+#include <scree/mechanics/reference_map.h>
+#include <scree/points/moving_least_squares.h>
+
+#include <optional>
+#include <vector>
+
+namespace scree
+{
+/**
+ * What a step on a moving geometry starts from: the displacement u_n = x - X since the start of
+ * the run and the material's history, anywhere in the bodies. u_n is the fit of the material
+ * points (fit_displacement()) and gives F_n = (I - grad u_n)^{-1}; or F_n comes from the points by
+ * moving least squares. Internal variables always do.
+ */
+template <int dim>
+class StepStart
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /** Collective. Points are those of the owned cells. */
+  StepStart(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+            const MaterialPoints<dim> &points, const MovingGeometryParameters &parameters);
+
+  /** u_n and F_n at a point. */
+  struct Deformation
+  {
+    dealii::Tensor<1, dim> displacement; //!< [L]
+    dealii::Tensor<2, dim> gradient;     //!< F_n
+  };
+
+  /** By the fit. */
+  Deformation deformation(const PointInCell<dim> &point) const;
+
+  /** X = x - u_n. */
+  dealii::Point<dim> reference_position(const PointInCell<dim> &point) const;
+
+  /** The histories at points of deformable bodies. */
+  std::vector<PointHistory<dim>> histories(const std::vector<PointInCell<dim>> &points) const;
+
+  /** The history of an own material point, whose internal variables are known there. */
+  PointHistory<dim> history_of_material_point(const std::size_t point) const;
+
+  /** The own material points in their cells. */
+  const std::vector<PointInCell<dim>> &material_points() const
+  {
+    return locations;
+  }
+
+  /** What the moving least squares met since the start of the step, on this process. */
+  const MovingLeastSquaresReport &transfer_report() const
+  {
+    return report;
+  }
+
+  /** Entries of MaterialPoints::internal: six of the internal tensor, then alpha. */
+  static constexpr unsigned int n_internal = 7;
+  /** Whether some law needs them. */
+  static bool needs_internal(const std::vector<Body<dim>> &bodies);
+
+private:
+  PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
+  void         collect_neighbours();
+
+  const Fields<dim>              &fields;
+  const std::vector<Body<dim>>   &bodies;
+  const MaterialPoints<dim>      &own_points;
+  const MovingGeometryParameters &parameters;
+  std::vector<PointInCell<dim>>   locations;
+  std::vector<double>             displacements; //!< u_n, see values_by_cell()
+  MaterialPoints<dim>             cloud;         //!< own points and neighbours
+  /** From the cloud, if something needs it. */
+  std::optional<MovingLeastSquares<dim>> moving_least_squares;
+  mutable MovingLeastSquaresReport       report;
+};
+
+/** The internal tensor and alpha as MaterialPoints::internal stores them. */
+template <int dim>
+void store_internal(const PointHistory<dim> &history, double *internal);
+template <int dim>
+void load_internal(const double *internal, PointHistory<dim> &history);
+} // namespace scree

@@ -1,0 +1,223 @@
+#include <scree/application/simulation.h>
+#include <scree/base/exceptions.h>
+#include <scree/bodies/rigid_placement.h>
+#include <scree/points/migration.h>
+#include <scree/points/seeding.h>
+#include <scree/points/splitting.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+// A run on a moving geometry: what happens between the load steps.
+namespace scree
+{
+template <int dim>
+void
+Simulation<dim>::set_up_points()
+{
+  const Timings::Scope scope(timings, "material points");
+  if (step_control.n_accepted() == 0)
+    seed_points();
+  else
+    send_to_owners<dim>(
+      state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
+      communicator);
+  step_start = std::make_unique<StepStart<dim>>(*fields, bodies, state.points, parameters.moving);
+}
+
+template <int dim>
+void
+Simulation<dim>::seed_points()
+{
+  std::vector<double> density;
+  for (const auto &body : bodies)
+    density.push_back(body.is_rigid() ? 0. : body.material->density());
+  const PointSeeding<dim> seeding(*fields, *level_set_nodes, bodies, *quadrature, density);
+  const unsigned int      n_internal
+    = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
+  const unsigned int n_per_direction = parameters.moving.points_per_direction > 0
+                                         ? parameters.moving.points_per_direction
+                                         : parameters.degree + 1;
+  state.points                       = parameters.moving.places == PointPlaces::quadrature_points
+                                         ? seeding.at_quadrature_points(n_internal)
+                                         : seeding.on_sub_grid(n_per_direction, n_internal);
+}
+
+template <int dim>
+MaterialPoints<dim>
+Simulation<dim>::moved_points(const typename Equilibrium<dim>::Vector &u) const
+{
+  MaterialPoints<dim>                 points = state.points;
+  const std::vector<double>           values = values_by_cell(*fields, equilibrium->with_ghosts(u));
+  const unsigned int                  n      = fields->basis.n_nodes;
+  std::vector<dealii::Tensor<1, dim>> increments(points.size());
+  std::vector<dealii::Tensor<2, dim>> gradients(points.size());
+  ShapeValues<dim>                    shape;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    {
+      const auto  &location = step_start->material_points()[p];
+      const double scale = 1. / grid->cells()[fields->cells()[location.active_cell].grid_cell].size;
+      const double *nodal = &values[std::size_t(location.active_cell) * n * dim];
+      fields->basis.evaluate(location.unit_point, shape);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            increments[p][d] += nodal[a * dim + d] * shape.value[a];
+            gradients[p][d] += nodal[a * dim + d] * scale * shape.gradient[a];
+          }
+
+      const auto             &law     = *bodies[points.body[p]].law;
+      const PointHistory<dim> history = step_start->history_of_material_point(p);
+      const IncrementStart    start   = law.start(history);
+      dealii::Tensor<2, dim>  F_D     = gradients[p];
+      for (unsigned int d = 0; d < dim; ++d)
+        F_D[d][d] += 1.;
+      IncrementResponse<dim> response;
+      law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
+                  dealii::ArrayView<const IncrementStart>(&start, 1),
+                  dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          points.stress[p][i][j] = response.cauchy[i][j];
+      if (points.n_internal() > 0)
+        {
+          const PointHistory<dim> next = law.finish(history, F_D, response);
+          store_internal(next, &points.internal[p * points.n_internal()]);
+        }
+    }
+  points.move(increments, gradients);
+  return points;
+}
+
+template <int dim>
+std::string
+Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &u) const
+{
+  const double h       = grid->finest_size();
+  const auto   motions = equilibrium->largest_displacements(u);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid() && motions[b] > parameters.moving.largest_motion * h)
+      return "the body " + bodies[b].name + " moves by " + short_number(motions[b] / h)
+             + " finest cells (Moving geometry/Largest motion)";
+  double slip = 0.;
+  for (const auto &response : contact->responses())
+    slip = std::max(slip, response.slip);
+  slip = dealii::Utilities::MPI::max(slip, communicator);
+  if (slip > parameters.moving.largest_slip * h)
+    return "contact slides by " + short_number(slip / h)
+           + " finest cells (Moving geometry/Largest slip)";
+  return "";
+}
+
+template <int dim>
+void
+Simulation<dim>::move_geometry()
+{
+  const auto               ghosted  = equilibrium->with_ghosts(state.displacement);
+  const ContactMemory<dim> memory   = remember(*contact, communicator);
+  const Energies           energies = equilibrium->energies();
+  std::vector<double>      multipliers;
+  for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
+    multipliers.push_back(ghosted(fields->multiplier(i)));
+  predictor.of_rigid.resize(bodies.size());
+  MotionRecord<dim> record;
+  record.transfer_report = step_start->transfer_report();
+  {
+    const Timings::Scope scope(timings, "level sets");
+    const double         margin = lattice_margin();
+    predictor.of_bodies.clear();
+    for (auto &motion :
+         move_level_sets(bodies, *fields, ghosted,
+                         {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
+      {
+        predictor.of_bodies.push_back(std::move(motion.increment));
+        record.n_islands += motion.n_islands;
+      }
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_rigid())
+        {
+          const auto q = rigid_unknowns(*fields, b, ghosted);
+          for (unsigned int m = 0; m < q.size(); ++m)
+            predictor.of_rigid[b][m] = q[m] - bodies[b].pose[m];
+          place_rigid_body(bodies[b], q, lattice_frame(), margin);
+        }
+  }
+  state.points = std::move(points_at_end);
+  discretise();
+  results->set_discretization(*fields, *level_set_nodes);
+  start_step(memory, multipliers, energies);
+  record.volumes   = bulk->volumes();
+  record.points    = state.points.totals(bodies.size(), communicator);
+  record.transfers = transferred_forces(*contact, memory, state.contact, communicator);
+  results->gather_motion(record);
+}
+
+template <int dim>
+void
+Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
+                            const std::vector<double> &multipliers, const Energies &energies)
+{
+  state.displacement = zero_displacement(*fields);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        if (fields->owned().is_element(fields->rigid_unknown(b) + m))
+          state.displacement(fields->rigid_unknown(b) + m) = bodies[b].pose[m];
+  for (unsigned int i = 0; i < multipliers.size(); ++i)
+    if (fields->owned().is_element(fields->multiplier(i)))
+      state.displacement(fields->multiplier(i)) = multipliers[i];
+  state.displacement.compress(dealii::VectorOperation::insert);
+  state.contact = recall(*contact, memory);
+  equilibrium->start_step(state.time, state.displacement, state.contact, energies);
+}
+
+template <int dim>
+typename Equilibrium<dim>::Vector
+Simulation<dim>::predicted(const double time) const
+{
+  const double factor = (time - state.time) / predictor.step_size;
+  auto         result = state.displacement;
+  for (unsigned int a = 0; a < fields->n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell     = fields->cells()[a];
+      const auto       &geometry = grid->cells()[cell.grid_cell];
+      for (unsigned int i = 0; i < fields->basis.n_nodes; ++i)
+        {
+          const DofIndex node = fields->nodes(a)[i];
+          if (!fields->owned().is_element(node)
+              || fields->hanging_constraints().is_constrained(node))
+            continue;
+          const auto increment
+            = factor
+              * predictor.of_bodies[cell.body](
+                geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields->basis.node(i)));
+          for (unsigned int d = 0; d < dim; ++d)
+            result(node + d) = increment[d];
+        }
+    }
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        if (fields->owned().is_element(fields->rigid_unknown(b) + m))
+          result(fields->rigid_unknown(b) + m)
+            = bodies[b].pose[m] + factor * predictor.of_rigid[b][m];
+  result.compress(dealii::VectorOperation::insert);
+  return result;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                                           \
+  template void                Simulation<dim>::set_up_points();                                                         \
+  template void                Simulation<dim>::seed_points();                                                           \
+  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                            \
+    const typename Equilibrium<dim>::Vector &) const;                                                                    \
+  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                         \
+    const;                                                                                                               \
+  template void                              Simulation<dim>::move_geometry();                                           \
+  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                     \
+                                                                         const std::vector<double> &, const Energies &); \
+  template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

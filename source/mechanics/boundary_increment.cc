@@ -1,0 +1,193 @@
+#include <scree/mechanics/boundary_terms.h>
+
+// Boundary conditions that are not linear on a moving geometry: Nitsche's with the stress vector of
+// the law, and pressures that follow the surface.
+namespace scree
+{
+template <int dim>
+struct BoundaryTerms<dim>::PointIncrement
+{
+  dealii::Tensor<2, dim> increment; //!< F_D
+  dealii::Tensor<2, dim> piola;
+  dealii::Tensor<4, dim> tangent;
+  ShapeValues<dim>       shape; //!< gradients physical
+};
+
+template <int dim>
+bool
+BoundaryTerms<dim>::is_nonlinear(const BoundaryRegion<dim> &region) const
+{
+  const auto &parameters = region.condition->parameters;
+  return parameters.type == ConditionType::pressure
+         || (parameters.type == ConditionType::displacement
+             && parameters.method != DisplacementMethod::penalty);
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::find_starts()
+{
+  starts.resize(boundary_regions.size());
+  std::vector<PointInCell<dim>> points;
+  for (const auto &region : boundary_regions)
+    if (is_nonlinear(region))
+      for (const auto &point : region.points)
+        points.push_back({point.active_cell, point.unit_point});
+  const auto histories = start->histories(points);
+  auto       history   = histories.begin();
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+    if (is_nonlinear(boundary_regions[r]))
+      for (unsigned int q = 0; q < boundary_regions[r].points.size(); ++q)
+        starts[r].push_back(bodies[boundary_regions[r].body].law->start(*history++));
+}
+
+template <int dim>
+typename BoundaryTerms<dim>::PointIncrement
+BoundaryTerms<dim>::increment_at(const unsigned int region, const unsigned int q, const Vector &u,
+                                 const bool with_tangent) const
+{
+  const auto    &point = boundary_regions[region].points[q];
+  const double   scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
+  PointIncrement result;
+  fields.basis.evaluate(point.unit_point, result.shape);
+  result.increment      = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  const DofIndex *nodes = fields.nodes(point.active_cell);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    {
+      result.shape.gradient[a] *= scale;
+      for (unsigned int d = 0; d < dim; ++d)
+        result.increment[d] += u(nodes[a] + d) * result.shape.gradient[a];
+    }
+  IncrementResponse<dim> response;
+  bodies[boundary_regions[region].body].law->respond(
+    dealii::ArrayView<const dealii::Tensor<2, dim>>(&result.increment, 1),
+    dealii::ArrayView<const IncrementStart>(&starts[region][q], 1),
+    dealii::ArrayView<IncrementResponse<dim>>(&response, 1),
+    dealii::ArrayView<dealii::Tensor<4, dim>>(&result.tangent, with_tangent ? 1 : 0));
+  result.piola = response.piola;
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+BoundaryTerms<dim>::stress_vector(const BoundaryRegion<dim> &region, const unsigned int q,
+                                  const Vector &u) const
+{
+  return increment_at(&region - boundary_regions.data(), q, u, false).piola
+         * region.points[q].normal;
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+BoundaryTerms<dim>::turned_normal(const BoundaryRegion<dim> &region, const unsigned int q,
+                                  const Vector &u) const
+{
+  const auto F = increment_at(&region - boundary_regions.data(), q, u, false).increment;
+  return determinant(F) * transpose(invert(F)) * region.points[q].normal;
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_internal_forces(const Vector &u, const double time, Vector &forces) const
+{
+  if (!start)
+    return;
+  const unsigned int     n = fields.basis.n_nodes;
+  dealii::Vector<double> cell_forces(n * dim);
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+    {
+      const auto &region    = boundary_regions[r];
+      const auto &condition = *region.condition;
+      if (!is_nonlinear(region))
+        continue;
+      const bool is_pressure = condition.parameters.type == ConditionType::pressure;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto            &point = region.points[q];
+          const PointIncrement   here  = increment_at(r, q, u, false);
+          dealii::Tensor<1, dim> t;
+          if (is_pressure)
+            t = condition.value(0, point.reference_position, time) * determinant(here.increment)
+                * transpose(invert(here.increment)) * point.normal;
+          else
+            {
+              const dealii::Tensor<1, dim> flux = here.piola * point.normal;
+              for (const unsigned int c : condition.components)
+                t[c] = -flux[c];
+            }
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int d = 0; d < dim; ++d)
+              cell_forces(a * dim + d) = point.weight * here.shape.value[a] * t[d];
+          fields.hanging_constraints().distribute_local_to_global(
+            cell_forces, unknowns_of_nodes<dim>(fields.nodes(point.active_cell), n), forces);
+        }
+    }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
+                                dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  if (!start)
+    return;
+  const unsigned int         n = fields.basis.n_nodes;
+  dealii::FullMatrix<double> block(n * dim, n * dim);
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+    {
+      const auto &region    = boundary_regions[r];
+      const auto &condition = *region.condition;
+      if (!is_nonlinear(region))
+        continue;
+      const bool is_pressure = condition.parameters.type == ConditionType::pressure;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto          &point = region.points[q];
+          const PointIncrement here  = increment_at(r, q, u, !is_pressure);
+          // dt[i][k][L]: derivative of t_i with respect to F_D,kL
+          dealii::Tensor<3, dim> dt;
+          if (is_pressure)
+            {
+              const dealii::Tensor<2, dim> inverse = invert(here.increment);
+              const dealii::Tensor<1, dim> normal  = transpose(inverse) * point.normal;
+              const double                 scale
+                = condition.value(0, point.reference_position, time) * determinant(here.increment);
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int k = 0; k < dim; ++k)
+                  for (unsigned int l = 0; l < dim; ++l)
+                    dt[i][k][l] = scale * (inverse[l][k] * normal[i] - inverse[l][i] * normal[k]);
+            }
+          else
+            for (const unsigned int c : condition.components)
+              for (unsigned int j = 0; j < dim; ++j)
+                dt[c] -= here.tangent[c][j] * point.normal[j];
+          for (unsigned int b = 0; b < n; ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                const dealii::Tensor<1, dim> column = dt[i] * here.shape.gradient[b];
+                for (unsigned int a = 0; a < n; ++a)
+                  for (unsigned int k = 0; k < dim; ++k)
+                    block(a * dim + i, b * dim + k)
+                      = point.weight * here.shape.value[a] * column[k];
+              }
+          fields.hanging_constraints().distribute_local_to_global(
+            block, unknowns_of_nodes<dim>(fields.nodes(point.active_cell), n), matrix);
+        }
+    }
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template bool BoundaryTerms<dim>::is_nonlinear(const BoundaryRegion<dim> &) const;            \
+  template void BoundaryTerms<dim>::find_starts();                                              \
+  template dealii::Tensor<1, dim> BoundaryTerms<dim>::stress_vector(                            \
+    const BoundaryRegion<dim> &, const unsigned int, const Vector &) const;                     \
+  template dealii::Tensor<1, dim> BoundaryTerms<dim>::turned_normal(                            \
+    const BoundaryRegion<dim> &, const unsigned int, const Vector &) const;                     \
+  template void BoundaryTerms<dim>::add_internal_forces(const Vector &, const double, Vector &) \
+    const;                                                                                      \
+  template void BoundaryTerms<dim>::add_tangent(const Vector &, const double,                   \
+                                                dealii::TrilinosWrappers::SparseMatrix &) const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

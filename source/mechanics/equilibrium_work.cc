@@ -1,0 +1,165 @@
+#include <scree/mechanics/equilibrium.h>
+
+#include <deal.II/base/mpi.h>
+
+// Work and energies of the accepted states.
+namespace scree
+{
+template <int dim>
+double
+Equilibrium<dim>::work_of_multipliers(const Vector &u)
+{
+  double work = 0.;
+  for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
+    {
+      const DofIndex index = fields.multiplier(i);
+      if (!fields.owned().is_element(index))
+        continue;
+      // The row says B u = f, its multiplier acts on the body with -B^T lambda.
+      work -= 0.5 * (accepted_u(index) + u(index)) * (loads(index) - accepted_prescribed(index));
+      accepted_prescribed(index) = loads(index);
+    }
+  accepted_prescribed.compress(dealii::VectorOperation::insert);
+  return work;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghost_values)
+{
+  double work = work_of_multipliers(u);
+  Vector forces(internal_forces);
+  reactions(forces);
+  for (const auto &unknown : supports.unknowns())
+    {
+      const double motion = u(unknown.index) - accepted_u(unknown.index);
+      work += 0.5 * (accepted_reactions(unknown.index) + forces(unknown.index)) * motion;
+    }
+  // What drives the rigid bodies: applied forces, or the reactions of prescribed components.
+  forces += applied_forces;
+  work += rigid.work(u, accepted_u, forces, accepted_reactions);
+  accepted_reactions = forces;
+  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
+    {
+      const auto &region    = boundary_terms.regions()[i];
+      const auto &condition = *region.condition;
+      if (condition.parameters.type != ConditionType::displacement)
+        continue;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto &point    = region.points[q];
+          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          const auto  value    = condition.vector(point.reference_position, time);
+          work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
+                  * (value - accepted_displacements[i][q]);
+        }
+    }
+  remember_conditions(with_ghost_values);
+  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+}
+
+template <int dim>
+void
+Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
+{
+  const Vector with_ghost_values = with_ghosts(u);
+  Energies    &energies          = current_energies;
+  // Unknown by unknown with condensed hanging nodes: loads have no entries there.
+  Vector motion(u);
+  motion -= accepted_u;
+  accepted_dead_loads += dead_loads;
+  energies.external_work
+    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(u, with_ghost_values);
+  accepted_dead_loads = dead_loads;
+  accepted_u          = u;
+
+  double dissipated = 0.;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto &response = contact.responses()[i];
+      dissipated += 0.5 * contact.points()[i].weight
+                    * (old_history.tau[i].norm() + response.tau.norm()) * response.slip;
+    }
+  energies.dissipation += dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
+  store_energies(with_ghost_values);
+  // On a moving geometry the penalty acts on increments and gives nothing back.
+  const double ghost = bulk.ghost_energy(with_ghost_values);
+  if (is_linear_but_for_contact())
+    energies.ghost_penalty = ghost;
+  else
+    {
+      energies.ghost_penalty += ghost;
+      energies.plastic += bulk.work(with_ghost_values).dissipation;
+    }
+}
+
+template <int dim>
+void
+Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
+{
+  double stored = 0.;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto &response = contact.responses()[i];
+      stored += 0.5 * contact.points()[i].weight
+                * (response.pressure * response.pressure / contact.eps_n(i)
+                   + response.tau.norm_square() / contact.eps_t(i));
+    }
+  current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
+  current_energies.strain   = bulk.work(with_ghost_values).energy;
+  current_energies.boundary = boundary_terms.energy(with_ghost_values, time);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
+                             const Energies &energies)
+{
+  start_time = time;
+  Vector at_start(u), r(u);
+  set_time(time, at_start);
+  residual(at_start, history, r);
+  const Vector with_ghost_values = with_ghosts(at_start);
+  accepted_u                     = at_start;
+  accepted_dead_loads            = dead_loads;
+  reactions(accepted_reactions);
+  accepted_reactions += applied_forces;
+  for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
+    if (fields.owned().is_element(fields.multiplier(i)))
+      accepted_prescribed(fields.multiplier(i)) = loads(fields.multiplier(i));
+  accepted_prescribed.compress(dealii::VectorOperation::insert);
+  remember_conditions(with_ghost_values);
+  current_energies = energies;
+  store_energies(with_ghost_values);
+  current_energies.transfer += current_energies.stored() - energies.stored();
+}
+
+template <int dim>
+void
+Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
+{
+  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
+    {
+      const auto &region = boundary_terms.regions()[i];
+      if (region.condition->parameters.type == ConditionType::displacement)
+        for (unsigned int q = 0; q < region.points.size(); ++q)
+          {
+            accepted_tractions[i][q] = boundary_terms.traction(region, q, with_ghost_values, time);
+            accepted_displacements[i][q]
+              = region.condition->vector(region.points[q].reference_position, time);
+          }
+    }
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                       \
+  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);     \
+  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);       \
+  template void   Equilibrium<dim>::store_energies(const Vector &);                            \
+  template void   Equilibrium<dim>::start_step(const double, const Vector &,                   \
+                                               const ContactHistory<dim> &, const Energies &); \
+  template void   Equilibrium<dim>::remember_conditions(const Vector &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,46 @@
+#include <scree/mechanics/moving_geometry_parameters.h>
+
+namespace scree
+{
+void
+MovingGeometryParameters::declare(ParameterSection &section)
+{
+  const EnumNames<bool>        updates = {{false, "none"}, {true, "every step"}};
+  const EnumNames<PointPlaces> place_names
+    = {{PointPlaces::sub_grid, "sub-grid"}, {PointPlaces::quadrature_points, "quadrature points"}};
+  const EnumNames<DeformationTransfer> deformation_names
+    = {{DeformationTransfer::reference_map, "reference map"},
+       {DeformationTransfer::moving_least_squares, "moving least squares"}};
+  const EnumNames<IncrementMotion> motion_names
+    = {{IncrementMotion::semi_lagrangian, "semi-Lagrangian"},
+       {IncrementMotion::map_velocity, "map velocity"},
+       {IncrementMotion::frozen_velocity, "frozen velocity"}};
+  section.entry("Update", is_moving, updates,
+                "none: displacements are small, the geometry stays; every step: bodies, material "
+                "points and contact move after every load step, laws and contact are those of "
+                "finite deformation.");
+  section.entry("Points", places, place_names,
+                "Where material points start: on a sub-grid of every cell, or at the quadrature "
+                "points of the body.");
+  section.entry("Points per direction", points_per_direction, dealii::Patterns::Integer(0, 10),
+                "Of the sub-grid, m^dim points in a cell; 0: Degree + 1.");
+  section.entry("Deformation gradient", deformation, deformation_names,
+                "At the start of a step. reference map: from the displacement x - X of the points, "
+                "fitted in the finite element space; moving least squares: of the gradients that "
+                "the points carry.");
+  section.entry("Support", support, dealii::Patterns::Double(1., 5.),
+                "Radius of moving least squares, in cells or distances of points [-].");
+  section.entry("Level set motion", motion, motion_names,
+                "semi-Lagrangian: traced back through the increment, no bound on the step; map "
+                "velocity: WENO5 with the velocity that belongs to the increment; frozen velocity: "
+                "WENO5 with the increment as velocity, wrong for rotations, for comparison only.");
+  section.entry("Slope tolerance", slope_tolerance, dealii::Patterns::Double(1e-3, 1.),
+                "A level set becomes a distance again where ||grad phi| - 1| exceeds this [-].");
+  section.entry("Largest motion", largest_motion, positive_number(),
+                "A step in which a deformable body moves farther than this many finest cells is "
+                "cut [-].");
+  section.entry("Largest slip", largest_slip, positive_number(),
+                "A step in which closed contact slides farther than this many finest cells is cut "
+                "[-].");
+}
+} // namespace scree

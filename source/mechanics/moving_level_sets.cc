@@ -1,0 +1,453 @@
+#include <scree/base/exceptions.h>
+#include <scree/level_set/extension.h>
+#include <scree/level_set/fast_marching.h>
+#include <scree/level_set/pieces.h>
+#include <scree/level_set/reboxing.h>
+#include <scree/level_set/reinitialisation.h>
+#include <scree/mechanics/moving_level_sets.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+constexpr double unset = std::numeric_limits<double>::lowest();
+
+template <int dim>
+using Index = typename Lattice<dim>::Index;
+
+/** Calls f(index, offset) for the nodes first <= index < end of a lattice, x fastest. */
+template <int dim, typename F>
+void
+for_each_node(const Lattice<dim> &lattice, const Index<dim> &first, const Index<dim> &end,
+              const F &f)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (first[d] >= end[d])
+      return;
+  Index<dim> index = first;
+  while (index[dim - 1] < end[dim - 1])
+    {
+      const std::size_t row = lattice.offset(index) - (index[0] - first[0]);
+      for (index[0] = first[0]; index[0] < end[0]; ++index[0])
+        f(index, row + (index[0] - first[0]));
+      for (unsigned int d = 0; index[d] == end[d] && d + 1 < dim; ++d)
+        {
+          index[d] = first[d];
+          ++index[d + 1];
+        }
+    }
+}
+
+/** The owned active cells of each body. */
+template <int dim>
+std::vector<std::vector<unsigned int>>
+cells_of_bodies(const Fields<dim> &fields, const unsigned int n_bodies)
+{
+  std::vector<std::vector<unsigned int>> cells(n_bodies);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    cells[fields.cells()[a].body].push_back(a);
+  return cells;
+}
+
+/** The largest |du| at a node of the cells of each body, on all processes. */
+template <int dim>
+std::vector<double>
+largest_increments(const Fields<dim> &fields, const Vector &du,
+                   const std::vector<std::vector<unsigned int>> &cells)
+{
+  std::vector<double> largest(cells.size(), 0.);
+  for (unsigned int b = 0; b < cells.size(); ++b)
+    for (const unsigned int a : cells[b])
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        {
+          double square = 0.;
+          for (unsigned int d = 0; d < dim; ++d)
+            square += std::pow(du(fields.nodes(a)[i] + d), 2);
+          largest[b] = std::max(largest[b], std::sqrt(square));
+        }
+  dealii::Utilities::MPI::max(largest, fields.grid.communicator(), largest);
+  return largest;
+}
+
+/** The finite element field of one body at the lattice nodes in its cells. */
+template <int dim>
+class IncrementInCells
+{
+public:
+  IncrementInCells(const Fields<dim> &fields, const Vector &du, const Lattice<dim> &lattice)
+      : fields(fields)
+      , du(du)
+      , lattice(lattice)
+  {
+  }
+
+  /** Values at all nodes, `unset` off the cells of all processes. */
+  NodalVectors<dim> at_nodes(const std::vector<unsigned int> &cells);
+
+private:
+  /** Raises the values in a cell to those of its field: the result has no order of cells. */
+  void add_cell(const unsigned int cell, NodalVectors<dim> &values);
+
+  /** Values of the 1D basis functions at the points i/n, i = 0 ... n. */
+  const std::vector<std::array<double, 3>> &table(const unsigned int n);
+
+  const Fields<dim>                              &fields;
+  const Vector                                   &du;
+  const Lattice<dim>                             &lattice;
+  std::vector<std::vector<std::array<double, 3>>> tables; // by n
+};
+
+template <int dim>
+const std::vector<std::array<double, 3>> &
+IncrementInCells<dim>::table(const unsigned int n)
+{
+  if (tables.size() <= n)
+    tables.resize(n + 1);
+  if (tables[n].empty())
+    {
+      const unsigned int  n_1d = fields.basis.n_1d;
+      std::vector<double> values(fields.basis.n_nodes);
+      for (unsigned int i = 0; i <= n; ++i)
+        {
+          dealii::Point<dim> point; // on the first edge, where the other functions vanish
+          point[0] = double(i) / n;
+          fields.basis.evaluate_values(point, values.data());
+          tables[n].emplace_back();
+          std::copy_n(values.begin(), n_1d, tables[n].back().begin());
+        }
+    }
+  return tables[n];
+}
+
+template <int dim>
+void
+IncrementInCells<dim>::add_cell(const unsigned int cell, NodalVectors<dim> &values)
+{
+  const auto        &basis  = fields.basis;
+  const unsigned int n_1d   = basis.n_1d;
+  const auto        &place  = fields.grid.cells()[fields.cells()[cell].grid_cell];
+  const double       h      = lattice.spacing();
+  const int          n      = static_cast<int>(std::lround(place.size / h));
+  const auto        &weight = table(n);
+
+  std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> nodal;
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+      nodal[i][d] = du(fields.nodes(cell)[i] + d);
+
+  Index<dim> corner, first, end;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      corner[d] = static_cast<int>(std::lround((place.lower[d] - lattice.frame().origin[d]) / h));
+      first[d]  = std::max(corner[d], lattice.lower()[d]);
+      end[d]    = std::min(corner[d] + n, lattice.lower()[d] + lattice.n_nodes()[d] - 1) + 1;
+    }
+  std::array<dealii::Tensor<1, dim>, 3> row; // the field as a function of x in a row of nodes
+  for_each_node(lattice, first, end, [&](const Index<dim> &index, const std::size_t offset) {
+    if (index[0] == first[0])
+      for (unsigned int i = 0; i < n_1d; ++i)
+        {
+          row[i] = 0.;
+          for (unsigned int j = i; j < basis.n_nodes; j += n_1d)
+            {
+              double w = weight[index[1] - corner[1]][j / n_1d % n_1d];
+              if constexpr (dim == 3)
+                w *= weight[index[2] - corner[2]][j / (n_1d * n_1d)];
+              row[i] += w * nodal[j];
+            }
+        }
+    dealii::Tensor<1, dim> value;
+    for (unsigned int i = 0; i < n_1d; ++i)
+      value += weight[index[0] - corner[0]][i] * row[i];
+    for (unsigned int d = 0; d < dim; ++d)
+      values[d][offset] = std::max(values[d][offset], value[d]);
+  });
+}
+
+template <int dim>
+NodalVectors<dim>
+IncrementInCells<dim>::at_nodes(const std::vector<unsigned int> &cells)
+{
+  NodalVectors<dim> values;
+  for (auto &component : values)
+    component.assign(lattice.values().size(), unset);
+  for (const unsigned int cell : cells)
+    add_cell(cell, values);
+  for (auto &component : values)
+    dealii::Utilities::MPI::max(component, fields.grid.communicator(), component);
+  return values;
+}
+
+/** The nodes of a lattice in a box whose faces are on nodes. */
+template <int dim>
+NodeBox<dim>
+nodes_inside(const Lattice<dim> &lattice, const dealii::BoundingBox<dim> &box)
+{
+  NodeBox<dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const auto node = [&](const double x) {
+        return static_cast<int>(std::lround((x - lattice.frame().origin[d]) / lattice.spacing()));
+      };
+      const int end
+        = std::min(node(box.upper_bound(d)) + 1, lattice.lower()[d] + lattice.n_nodes()[d]);
+      result.lower[d]   = std::max(node(box.lower_bound(d)), lattice.lower()[d]);
+      result.n_nodes[d] = end - result.lower[d];
+    }
+  return result;
+}
+
+/** v(f - d) = v(f) + (v(f) - v(f + m)) d/m, m = d if there are so many nodes, beyond `inside`. */
+template <int dim>
+void
+continue_through_faces(const Lattice<dim> &lattice, const NodeBox<dim> &inside,
+                       NodalVectors<dim> &v)
+{
+  Index<dim> first = inside.lower, end;
+  for (unsigned int d = 0; d < dim; ++d)
+    end[d] = first[d] + inside.n_nodes[d];
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const int  face_below = first[d], face_above = end[d] - 1, depth = face_above - face_below;
+      const auto set = [&](Index<dim> index, const std::size_t offset) {
+        const bool below = index[d] < face_below;
+        if (!below && index[d] <= face_above)
+          return;
+        const int beyond          = below ? face_below - index[d] : index[d] - face_above;
+        const int within          = std::min(beyond, depth);
+        index[d]                  = below ? face_below : face_above;
+        const std::size_t on_face = lattice.offset(index);
+        index[d] += below ? within : -within;
+        const std::size_t opposite = lattice.offset(index);
+        for (auto &component : v)
+          component[offset]
+            = component[on_face] + (component[on_face] - component[opposite]) * beyond / within;
+      };
+      first[d] = lattice.lower()[d];
+      end[d]   = first[d] + lattice.n_nodes()[d];
+      for_each_node(lattice, first, end, set);
+    }
+}
+
+/** Continues v from the nodes in the body's cells to all nodes. */
+template <int dim>
+void
+continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
+                  const dealii::BoundingBox<dim> &box, NodalVectors<dim> &v)
+{
+  const NodeBox<dim> inside = nodes_inside(lattice, box);
+  if (inside.n_nodes == lattice.n_nodes())
+    {
+      extend(lattice, known, ExtensionOptions(), v);
+      return;
+    }
+  // What the level set does beyond the box must not lead the extension inside.
+  const Lattice<dim> part = reboxed(lattice, inside);
+  NodalVectors<dim>  v_part;
+  std::vector<char>  known_part(part.values().size());
+  for (auto &component : v_part)
+    component.resize(part.values().size());
+  Index<dim> end = inside.lower;
+  for (unsigned int d = 0; d < dim; ++d)
+    end[d] += inside.n_nodes[d];
+  std::size_t i = 0;
+  for_each_node(lattice, inside.lower, end, [&](const Index<dim> &, const std::size_t offset) {
+    for (unsigned int d = 0; d < dim; ++d)
+      v_part[d][i] = v[d][offset];
+    known_part[i++] = known[offset];
+  });
+  extend(part, known_part, ExtensionOptions(), v_part);
+  i = 0;
+  for_each_node(lattice, inside.lower, end, [&](const Index<dim> &, const std::size_t offset) {
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d][offset] = v_part[d][i];
+    ++i;
+  });
+  continue_through_faces<dim>(lattice, inside, v);
+}
+
+/**
+ * Removes the pieces of the moved body that nothing of the old one went to: phi becomes half a
+ * spacing there.
+ * @param old   level set before the motion, on the same nodes
+ * @param known nodes in the body's cells
+ */
+template <int dim>
+unsigned int
+remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
+               const std::vector<char> &known, const NodalVectors<dim> &du)
+{
+  const Pieces pieces = negative_pieces(lattice);
+  if (pieces.n <= 1)
+    return 0;
+  std::vector<char> has_material(pieces.n + 1, 0);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    {
+      if (!known[i] || old[i] >= 0.)
+        continue;
+      Index<dim> below = lattice.index(i);
+      for (unsigned int d = 0; d < dim; ++d)
+        below[d] += static_cast<int>(std::floor(du[d][i] / lattice.spacing()));
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          Index<dim> node = below;
+          for (unsigned int d = 0; d < dim; ++d)
+            node[d] += corner >> d & 1u;
+          if (lattice.contains(node))
+            has_material[pieces.of_node[lattice.offset(node)]] = 1;
+        }
+    }
+  for (std::size_t i = 0; i < pieces.of_node.size(); ++i)
+    if (pieces.of_node[i] > 0 && !has_material[pieces.of_node[i]])
+      lattice.values()[i] = 0.5 * lattice.spacing();
+  return std::count(has_material.begin() + 1, has_material.end(), 0);
+}
+
+/** The box of the negative nodes and a spacing around it, clipped. */
+template <int dim>
+dealii::BoundingBox<dim>
+box_of_body(const Lattice<dim> &lattice, const dealii::BoundingBox<dim> &clip)
+{
+  dealii::Point<dim> lower = clip.get_boundary_points().second,
+                     upper = clip.get_boundary_points().first;
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    if (lattice.values()[i] < 0.)
+      {
+        const dealii::Point<dim> x = lattice.node(lattice.index(i));
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], x[d] - lattice.spacing());
+            upper[d] = std::max(upper[d], x[d] + lattice.spacing());
+          }
+      }
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::max(lower[d], clip.lower_bound(d));
+      upper[d] = std::min(upper[d], clip.upper_bound(d));
+    }
+  return dealii::BoundingBox<dim>({lower, upper});
+}
+
+template <int dim>
+BodyMotion<dim>
+move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
+               const std::vector<unsigned int> &cells, const LevelSetMotion &options,
+               const double largest_increment)
+{
+  const dealii::BoundingBox<dim> box = fields.grid.box();
+  Lattice<dim>                  &phi = body.level_set;
+  BodyMotion<dim>                result;
+  result.largest_increment = largest_increment;
+  if (largest_increment > 0.5 * options.margin)
+    {
+      phi = reboxed(phi, node_box_of_body(phi, options.margin + largest_increment, box));
+      result.is_reboxed = true;
+    }
+
+  NodalVectors<dim> v = IncrementInCells<dim>(fields, du, phi).at_nodes(cells);
+  std::vector<char> known(phi.values().size());
+  for (std::size_t i = 0; i < known.size(); ++i)
+    known[i] = v[0][i] != unset;
+  continue_off_body<dim>(phi, known, box, v);
+
+  if (has_contour(phi))
+    {
+      const std::vector<double> old = phi.values();
+      result.n_unconverged          = advect_increment<dim>(phi, v, options.motion).n_unconverged;
+      result.n_islands              = remove_islands<dim>(phi, old, known, v);
+      ReinitialisationOptions reinitialisation;
+      reinitialisation.tolerance = options.reinitialisation_tolerance;
+      result.contour_motion      = reinitialise(phi, reinitialisation).contour_motion;
+    }
+  result.increment = ExtendedIncrement<dim>(phi, std::move(v));
+  result.is_reboxed |= follow_body(phi, options.margin, box);
+  body.box = box_of_body(phi, box);
+  return result;
+}
+} // namespace
+
+template <int dim>
+ExtendedIncrement<dim>::ExtendedIncrement(const Lattice<dim> &lattice, NodalVectors<dim> &&values)
+    : first(lattice.node(lattice.lower()))
+    , spacing(lattice.spacing())
+    , n_nodes(lattice.n_nodes())
+    , nodal(std::move(values))
+{
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+ExtendedIncrement<dim>::operator()(const dealii::Point<dim> &x) const
+{
+  std::size_t                  node = 0, step = 1;
+  std::array<std::size_t, dim> stride;
+  std::array<double, dim>      t;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double s    = std::clamp((x[d] - first[d]) / spacing, 0., n_nodes[d] - 1.);
+      const int    base = std::min(static_cast<int>(s), n_nodes[d] - 2);
+      t[d]              = s - base;
+      stride[d]         = step;
+      node += base * step;
+      step *= n_nodes[d];
+    }
+  dealii::Tensor<1, dim> result;
+  for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+    {
+      double      weight = 1.;
+      std::size_t at     = node;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const bool above = corner >> d & 1u;
+          weight *= above ? t[d] : 1. - t[d];
+          at += above ? stride[d] : 0;
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += weight * nodal[d][at];
+    }
+  return result;
+}
+
+template <int dim>
+void
+require_movable(const std::vector<Body<dim>> &bodies)
+{
+  for (const auto &body : bodies)
+    require(body.is_rigid() || !body.level_set.is_tiled(), body.path,
+            "the level set of the deformable body '" + body.name
+              + "' has more than 16 million nodes and is stored in tiles, which do not move",
+            "use larger cells or a geometry that stays");
+}
+
+template <int dim>
+std::vector<BodyMotion<dim>>
+move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const Vector &du,
+                const LevelSetMotion &options)
+{
+  require_movable(bodies);
+  const auto                   cells   = cells_of_bodies(fields, bodies.size());
+  const std::vector<double>    largest = largest_increments(fields, du, cells);
+  std::vector<BodyMotion<dim>> motions(bodies.size());
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid())
+      motions[b] = move_level_set(bodies[b], fields, du, cells[b], options, largest[b]);
+  return motions;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                           \
+  template class ExtendedIncrement<dim>;                                                 \
+  template void                         require_movable(const std::vector<Body<dim>> &); \
+  template std::vector<BodyMotion<dim>> move_level_sets(                                 \
+    std::vector<Body<dim>> &, const Fields<dim> &, const Vector &, const LevelSetMotion &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

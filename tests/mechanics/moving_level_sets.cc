@@ -1,0 +1,488 @@
+// Level sets that follow finite element increments: contours against exact maps, box faces,
+// islands.
+#include <gtest/gtest.h>
+
+#include <scree/level_set/closest_point.h>
+#include <scree/level_set/extension.h>
+#include <scree/level_set/reinitialisation.h>
+#include <scree/mechanics/moving_level_sets.h>
+
+#include <ctime>
+#include <iostream>
+
+#include "../discretization/cut_bodies.h"
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+using Vector = TrilinosWrappers::MPI::Vector;
+
+/** A map x = X + f(X) of one step. */
+template <int dim>
+using Increment = std::function<Tensor<1, dim>(const Point<dim> &)>;
+
+/** Bodies that are moved by exact increments at the nodes of their cells. */
+template <int dim>
+struct MovingBodies
+{
+  explicit MovingBodies(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD)
+      : input(BodiesInput<dim>::from_string(text))
+      , cut(input, communicator)
+      , communicator(communicator)
+  {
+    const double h        = cut.grid.finest_size();
+    const bool   uniform  = input.grid.refinement == GridRefinement::uniform;
+    const double coarsest = uniform ? h : input.grid.cell_size(input.grid.coarsest_level);
+    options.margin        = std::max((CutBodies<dim>::shift + 2.) * h, 2. * coarsest);
+  }
+
+  /** The increment as a vector with ghosts, hanging nodes distributed. */
+  Vector nodal(const Increment<dim> &increment) const
+  {
+    const Fields<dim> &fields = *cut.fields;
+    Vector             owned(fields.owned(), communicator);
+    for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+      {
+        const auto &cell = cut.grid.cells()[fields.cells()[a].grid_cell];
+        for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+          {
+            const Tensor<1, dim> value
+              = increment(cell.lower + cell.size * Tensor<1, dim>(fields.basis.node(i)));
+            for (unsigned int d = 0; d < dim; ++d)
+              if (fields.owned().is_element(fields.nodes(a)[i] + d))
+                owned(fields.nodes(a)[i] + d) = value[d];
+          }
+      }
+    owned.compress(VectorOperation::insert);
+    fields.hanging_constraints().distribute(owned);
+    Vector result(fields.owned(), fields.relevant(), communicator);
+    result = owned;
+    return result;
+  }
+
+  /** One step; the unknowns are built anew for the next. */
+  BodyMotion<dim> step(const Increment<dim> &increment)
+  {
+    const auto motions = move_level_sets(cut.bodies, *cut.fields, nodal(increment), options);
+    cut.fields = std::make_unique<Fields<dim>>(cut.grid, *cut.level_set_nodes, cut.bodies, 0);
+    EXPECT_EQ(motions.front().n_unconverged, 0u);
+    EXPECT_EQ(motions.front().n_islands, 0u);
+    steps.push_back(increment);
+    return motions.front();
+  }
+
+  void run(const unsigned int n_steps, const Increment<dim> &increment)
+  {
+    for (unsigned int i = 0; i < n_steps; ++i)
+      step(increment);
+  }
+
+  /** The position at the start of the point that all steps moved to x. */
+  Point<dim> pulled_back(const Point<dim> &x) const
+  {
+    Point<dim> X = x;
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+      {
+        const Point<dim> end = X;
+        for (unsigned int i = 0; i < 100; ++i)
+          X = end - (*step)(X);
+      }
+    return X;
+  }
+
+  const Lattice<dim> &lattice() const
+  {
+    return cut.bodies.front().level_set;
+  }
+
+  /**
+   * The largest distance of the contour of the cubic interpolant inside the grid from the exact
+   * image of phi_0 = 0, measured at the start, in cells.
+   */
+  double contour_error(const std::function<double(const Point<dim> &)> &phi_0) const
+  {
+    double       largest = 0.;
+    unsigned int n       = 0;
+    for (std::size_t i = 0; i < lattice().values().size(); ++i)
+      if (std::abs(lattice().values()[i]) < 1.1 * lattice().spacing())
+        {
+          const Point<dim> x = project(lattice(), lattice().node(lattice().index(i)), 3).point;
+          if (!cut.grid.box().point_inside(x))
+            continue;
+          ++n;
+          largest = std::max(largest, std::abs(phi_0(pulled_back(x))));
+        }
+    EXPECT_GT(n, 20u);
+    return largest / cut.grid.finest_size();
+  }
+
+  /** The volume of the cubic interpolant inside the grid, by samples that straddle smoothly. */
+  double volume() const
+  {
+    constexpr int             n = dim == 2 ? 10 : 4;
+    const double              h = lattice().spacing(), edge = h / n;
+    double                    sum = 0.;
+    Point<dim>                centre_of_first;
+    const auto                box = cut.grid.box();
+    std::array<unsigned, dim> index{}, count;
+    for (unsigned int d = 0; d < dim; ++d)
+      count[d] = static_cast<unsigned int>(std::lround(box.side_length(d) / h));
+    while (index[dim - 1] < count[dim - 1])
+      {
+        Point<dim> lower = box.get_boundary_points().first;
+        Point<dim> centre;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] += index[d] * h;
+            centre[d] = lower[d] + 0.5 * h;
+          }
+        const double phi = lattice().value(centre, 1);
+        if (std::abs(phi) > 2. * h)
+          sum += phi < 0. ? std::pow(double(n), dim) : 0.;
+        else
+          for (int s = 0; s < Utilities::fixed_power<dim>(n); ++s)
+            {
+              Point<dim> x    = lower;
+              int        rest = s;
+              for (unsigned int d = 0; d < dim; ++d, rest /= n)
+                x[d] += (rest % n + 0.5) * edge;
+              sum += std::clamp(0.5 - lattice().value(x, 3) / edge, 0., 1.);
+            }
+        for (unsigned int d = 0; ++index[d] == count[d] && d + 1 < dim; ++d)
+          index[d] = 0;
+      }
+    return sum * std::pow(edge, dim);
+  }
+
+  BodiesInput<dim>            input;
+  CutBodies<dim>              cut;
+  LevelSetMotion              options;
+  MPI_Comm                    communicator;
+  std::vector<Increment<dim>> steps;
+};
+
+/** The increment A (x - centre) + shift. */
+template <int dim>
+Increment<dim>
+affine(const Tensor<2, dim> &A, const Point<dim> &centre,
+       const Tensor<1, dim> &shift = Tensor<1, dim>())
+{
+  return [=](const Point<dim> &x) { return A * (x - centre) + shift; };
+}
+
+/** R - I for a rotation in the plane of the first two axes. */
+template <int dim>
+Tensor<2, dim>
+turn(const double angle)
+{
+  Tensor<2, dim> result;
+  result[0][0] = result[1][1] = std::cos(angle) - 1.;
+  result[1][0]                = std::sin(angle);
+  result[0][1]                = -result[1][0];
+  return result;
+}
+
+const Point<2> middle(2., 2.);
+
+/** An ellipse of semi-axes 1 and 0.6 in a box of edge 4. */
+std::string
+ellipse_text(const unsigned int degree, const std::string &grid)
+{
+  return grid + degree_text(degree)
+         + bodies_text(
+           {{"it", shape_text("ellipse", "set Centre = 2, 2\nset Semi-axes = 1, 0.6")}});
+}
+
+/** The distance of the ellipse, to first order: exact zero. */
+double
+ellipse(const Point<2> &x)
+{
+  const double a = (x[0] - 2.), b = (x[1] - 2.) / 0.6;
+  const double f = std::sqrt(a * a + b * b);
+  return (f - 1.) * f / std::sqrt(a * a + b * b / 0.36);
+}
+
+const std::string uniform_grid = grid_text("0, 0", "4, 4", "1, 1", 7); // h = 1/32
+const std::string graded_grid  = grid_text(
+   "0, 0", "4, 4", "1, 1", 7,
+   graded_text(5, " set Cell size limit = if(x < 2, 0.03125, if(x < 2.4, 0.0625, 0.125))"));
+
+/** Moves the ellipse and bounds what changes. */
+void
+check_ellipse(const std::string &name, const std::string &text, const unsigned int n_steps,
+              const Tensor<2, 2> &A, const Tensor<1, 2> &shift, const double contour_bound,
+              const double area_bound)
+{
+  MovingBodies<2> it(text);
+  const double    area = it.volume();
+  for (unsigned int i = 0; i < n_steps; ++i)
+    it.step(affine<2>(A, middle + double(i) * shift, shift));
+  const double growth  = std::pow(determinant(unit_symmetric_tensor<2>() + A), n_steps);
+  const double error   = it.contour_error(ellipse);
+  const double of_area = it.volume() / (area * growth) - 1.;
+  std::cout << name << ": contour error/h " << error << ", area error " << of_area << '\n';
+  EXPECT_LT(error, contour_bound);
+  EXPECT_LT(std::abs(of_area), area_bound);
+}
+
+TEST(MovingLevelSets, FollowAffineMaps)
+{
+  const double       h = 1. / 32.;
+  const Tensor<2, 2> none, rotation = turn<2>(numbers::PI / 25.); // 7.2 degrees
+  const Tensor<1, 2> zero, shift({0.37 * h * 0.8, -0.37 * h * 0.6});
+  Tensor<2, 2>       compression;
+  compression[0][0] = 0.004;
+  compression[1][1] = std::pow(0.9, 0.1) - 1.;
+  for (const unsigned int degree : {1, 2})
+    for (const auto &grid : {uniform_grid, graded_grid})
+      {
+        const std::string text = ellipse_text(degree, grid);
+        const std::string name = "degree " + std::to_string(degree)
+                                 + (grid == graded_grid ? ", graded, " : ", uniform, ");
+        const double bound = degree == 1 ? 1e-3 : 1e-4, of_area = 2e-5;
+        check_ellipse(name + "translation by 3.7 h in 10 steps", text, 10, none, shift, bound,
+                      of_area);
+        check_ellipse(name + "36 degrees in 5 steps", text, 5, rotation, zero, bound, of_area);
+        check_ellipse(name + "compression by 10 % in 10 steps", text, 10, compression, zero, bound,
+                      of_area);
+      }
+}
+
+// Quadratic increments are in the space of degree 2, with hanging nodes too.
+TEST(MovingLevelSets, FollowQuadraticMapsOnAGradedGrid)
+{
+  MovingBodies<2> it(ellipse_text(2, graded_grid));
+  EXPECT_TRUE(it.cut.grid.triangulation().has_hanging_nodes());
+  it.run(10, [](const Point<2> &x) {
+    const double a = x[0] - 2., b = x[1] - 2.;
+    return Tensor<1, 2>({0.01 * a * b - 0.008 * b * b, 0.01 * a * a + 0.005 * b});
+  });
+  const double error = it.contour_error(ellipse);
+  std::cout << "contour error/h " << error << '\n';
+  EXPECT_LT(error, 1e-3);
+}
+
+/** Contour and area error of a body under an increment that keeps the planes x = 0 and y = 0. */
+std::pair<double, double>
+errors_at_planes(const unsigned int level, const unsigned int degree, const Point<2> &centre,
+                 const Increment<2> &increment)
+{
+  std::ostringstream where;
+  where << centre;
+  std::string at = where.str();
+  at.replace(at.find(' '), 1, ", ");
+  MovingBodies<2> it(grid_text("0, 0", "2, 2", "1, 1", level) + degree_text(degree)
+                     + bodies_text({{"it", ball_text(at, 1.)}}));
+  it.run(10, increment);
+  return {it.contour_error([&](const Point<2> &x) { return x.distance(centre) - 1.; }),
+          it.volume()};
+}
+
+TEST(MovingLevelSets, SlideAlongBoxFaces)
+{
+  Tensor<2, 2> A;
+  A[0][0]                 = 0.012;
+  A[1][1]                 = -0.01;
+  const Increment<2> bent = [](const Point<2> &x) {
+    return Tensor<1, 2>({0.01 * x[0] * (1. + 0.5 * x[1]), -0.01 * x[1] * (1. - 0.4 * x[0] * x[0])});
+  };
+  struct Case
+  {
+    std::string  name;
+    Point<2>     centre;
+    Increment<2> increment;
+  };
+  for (const auto &[name, centre, increment] :
+       {Case{"quarter disc, affine", Point<2>(), affine<2>(A, Point<2>())},
+        Case{"oblique at the face, affine", Point<2>(-0.4, 0.3), affine<2>(A, Point<2>())},
+        Case{"quarter disc, bent", Point<2>(), bent},
+        Case{"oblique at the face, bent", Point<2>(-0.4, 0.3), bent}})
+    for (const unsigned int degree : {1, 2})
+      {
+        const auto coarse = errors_at_planes(5, degree, centre, increment),
+                   fine   = errors_at_planes(6, degree, centre, increment);
+        std::cout << name << ", degree " << degree << ": contour error/h " << coarse.first << ", "
+                  << fine.first << ", area " << coarse.second << ", " << fine.second;
+        if (name == "quarter disc, affine")
+          {
+            const double exact = numbers::PI / 4. * std::pow(1.012 * 0.99, 10);
+            std::cout << ", area error " << coarse.second / exact - 1. << ", "
+                      << fine.second / exact - 1.;
+            EXPECT_LT(std::abs(fine.second / exact - 1.), 1e-5);
+          }
+        std::cout << '\n';
+        EXPECT_LT(fine.first, 5e-4);
+      }
+}
+
+TEST(MovingLevelSets, ABallIn3D)
+{
+  MovingBodies<3> it(grid_text("0, 0, 0", "2, 2, 2", "1, 1, 1", 5) + degree_text(1)
+                     + bodies_text({{"it", ball_text("1, 1, 1", 0.6)}}));
+  const double    volume = it.volume();
+  const Point<3>  centre(1., 1., 1.);
+  Tensor<2, 3>    A = turn<3>(0.1);
+  A[2][2]           = -0.02;
+  const Tensor<1, 3> shift({0.01, 0.02, 0.015});
+  for (unsigned int i = 0; i < 3; ++i)
+    it.step(affine<3>(A, centre + i * shift, shift));
+  const double error
+    = it.contour_error([&](const Point<3> &x) { return x.distance(centre) - 0.6; });
+  const double of_volume = it.volume() / (volume * std::pow(0.98, 3)) - 1.;
+  std::cout << "contour error/h " << error << ", volume error " << of_volume << '\n';
+  EXPECT_LT(error, 2e-3);
+  EXPECT_LT(std::abs(of_volume), 2e-5);
+}
+
+TEST(MovingLevelSets, TheLatticeFollowsTheBody)
+{
+  MovingBodies<2> it(uniform_grid + degree_text(1) + bodies_text({{"it", ball_text("1, 1", 0.5)}}));
+  unsigned int    n_boxes = 0;
+  // the second step is longer than the margin of 6 cells
+  for (const double distance : {0.05, 0.3, 0.15, 0.5})
+    n_boxes += it.step([=](const Point<2> &) {
+                   return Tensor<1, 2>({distance, distance});
+                 })
+                 .is_reboxed;
+  EXPECT_GE(n_boxes, 2u);
+  EXPECT_LT(it.contour_error([](const Point<2> &x) { return x.distance(Point<2>(1., 1.)) - 0.5; }),
+            3e-3);
+  const auto &body = it.cut.bodies.front();
+  for (unsigned int d = 0; d < 2; ++d)
+    {
+      EXPECT_NEAR(body.box.lower_bound(d), 1.5, 2.1 / 32.);
+      EXPECT_NEAR(body.box.upper_bound(d), 2.5, 2.1 / 32.);
+      EXPECT_LE(body.level_set.box().lower_bound(d), 1.5 - it.options.margin);
+      EXPECT_LE(body.level_set.n_nodes()[d], 32 + 2 * 2 * 6 + 12);
+    }
+}
+
+TEST(MovingLevelSets, KeepPiecesAndRemoveIslands)
+{
+  const std::string discs = shape_text(
+    "expression", "set Expression = min(sqrt((x-1.5)^2+(y-2)^2)-0.4, sqrt((x-2.6)^2+(y-2)^2)-0.3)");
+  MovingBodies<2> it(uniform_grid + degree_text(1) + bodies_text({{"it", discs}}));
+  const auto      shift = [](const Point<2> &) { return Tensor<1, 2>({0.02, 0.01}); };
+  it.step(shift);
+  EXPECT_LT(it.lattice().value(Point<2>(1.52, 2.01), 1), -0.3);
+  EXPECT_LT(it.lattice().value(Point<2>(2.62, 2.01), 1), -0.2);
+
+  // A spot that no cell knows of.
+  Lattice<2>       &phi    = it.cut.bodies.front().level_set;
+  Lattice<2>::Index corner = phi.lower();
+  for (int i = 2; i < 6; ++i)
+    for (int j = 2; j < 6; ++j)
+      phi({{corner[0] + i, corner[1] + j}}) = -0.3;
+  const auto motions = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.options);
+  EXPECT_EQ(motions.front().n_islands, 1u);
+  std::size_t n_far = 0;
+  for (std::size_t i = 0; i < phi.values().size(); ++i)
+    {
+      const Point<2> x = phi.node(phi.index(i));
+      n_far
+        += phi.values()[i] < 0.
+           && std::min(x.distance(Point<2>(1.54, 2.02)), x.distance(Point<2>(2.64, 2.02))) > 0.5;
+    }
+  EXPECT_EQ(n_far, 0u);
+  EXPECT_LT(phi.value(Point<2>(2.64, 2.02), 1), -0.2);
+}
+
+TEST(MovingLevelSets, TheExtendedIncrementIsAField)
+{
+  MovingBodies<2> it(ellipse_text(2, graded_grid));
+  Tensor<2, 2>    A           = turn<2>(0.1);
+  A[0][0]                     = 0.05;
+  const auto           map    = affine<2>(A, middle);
+  const BodyMotion<2>  motion = it.step(map);
+  ExtendedIncrement<2> copy
+    = Utilities::unpack<ExtendedIncrement<2>>(Utilities::pack(motion.increment));
+  for (const Point<2> &x : {Point<2>(2.01, 2.33), Point<2>(1.013, 1.977), Point<2>(3.05, 2.7)})
+    {
+      EXPECT_LE((motion.increment(x) - map(x)).norm(), 1e-12) << x;
+      EXPECT_EQ((motion.increment(x) - copy(x)).norm(), 0.);
+    }
+  EXPECT_EQ((motion.increment(Point<2>(9., 2.01)) - motion.increment(Point<2>(10., 2.01))).norm(),
+            0.);
+  EXPECT_GT(motion.largest_increment, 0.1);
+}
+
+TEST(MovingLevelSetsMPI, TheSameOnOneProcess)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      const std::string text = ellipse_text(degree, graded_grid);
+      MovingBodies<2>   together(text), alone(text, MPI_COMM_SELF);
+      const auto        map = affine<2>(turn<2>(0.1), middle, Tensor<1, 2>({0.01, 0.02}));
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const BodyMotion<2> motion = together.step(map), expected = alone.step(map);
+          EXPECT_EQ(motion.largest_increment, expected.largest_increment);
+          EXPECT_EQ(motion.contour_motion, expected.contour_motion);
+        }
+      ASSERT_EQ(together.lattice().values().size(), alone.lattice().values().size());
+      for (std::size_t i = 0; i < alone.lattice().values().size(); ++i)
+        ASSERT_EQ(together.lattice().values()[i], alone.lattice().values()[i]);
+    }
+}
+
+double
+seconds_since(const std::clock_t start)
+{
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(ReleaseMovingLevelSets, FullTurnIn50Steps)
+{
+  check_ellipse("360 degrees in 50 steps", ellipse_text(1, uniform_grid), 50,
+                turn<2>(numbers::PI / 25.), Tensor<1, 2>(), 5e-3, 5e-5);
+}
+
+TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
+{
+  MovingBodies<2>     it(grid_text("0, 0", "4, 4", "1, 1", 8) + degree_text(1)
+                         + bodies_text({{"it", ball_text("2, 2", 1.5625)}})); // 200 cells across
+  const auto          map   = affine<2>(turn<2>(0.02), middle);
+  const Vector        du    = it.nodal(map);
+  const std::clock_t  start = std::clock();
+  Lattice<2>          phi   = it.lattice();
+  const BodyMotion<2> motion
+    = move_level_sets(it.cut.bodies, *it.cut.fields, du, it.options).front();
+  const double all = seconds_since(start);
+
+  NodalVectors<2>   v = motion.increment.values();
+  std::vector<char> known;
+  for (const double value : phi.values())
+    known.push_back(value < 1.5 * phi.spacing());
+  const std::clock_t at_extension = std::clock();
+  extend(phi, known, ExtensionOptions(), v);
+  const double       extension    = seconds_since(at_extension);
+  const std::clock_t at_advection = std::clock();
+  advect_increment<2>(phi, v);
+  const double       advection = seconds_since(at_advection);
+  const std::clock_t at_end    = std::clock();
+  reinitialise(phi);
+  const double   reinitialisation = seconds_since(at_end);
+  const DofIndex n                = it.cut.fields->n_dofs();
+  std::cout << n << " unknowns, " << phi.values().size() << " lattice nodes: " << 1e3 * all
+            << " ms, of which extension " << 1e3 * extension << ", advection " << 1e3 * advection
+            << ", reinitialisation " << 1e3 * reinitialisation << '\n';
+  EXPECT_LT(all, 1e-5 * n);
+}
+
+TEST(ReleaseMovingLevelSets, CostLessThanALinearSolveIn3D)
+{
+  MovingBodies<3>    it(grid_text("0, 0, 0", "2, 2, 2", "1, 1, 1", 6) + degree_text(1)
+                        + bodies_text({{"it", ball_text("1, 1, 1", 0.625)}})); // 40 cells across
+  const Vector       du    = it.nodal(affine<3>(turn<3>(0.02), Point<3>(1., 1., 1.)));
+  const std::clock_t start = std::clock();
+  move_level_sets(it.cut.bodies, *it.cut.fields, du, it.options);
+  const double   all = seconds_since(start);
+  const DofIndex n   = it.cut.fields->n_dofs();
+  std::cout << n << " unknowns, " << it.lattice().values().size() << " lattice nodes: " << 1e3 * all
+            << " ms\n";
+  EXPECT_LT(all, 1e-5 * n);
+}
+} // namespace
+} // namespace scree
