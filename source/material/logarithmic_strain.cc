@@ -20,8 +20,9 @@ eliminate(Tensor<2, 3> &m, Tensor<2, 3> &vectors)
 {
   constexpr unsigned int r       = 3 - p - q;
   constexpr double       epsilon = 0.25 * std::numeric_limits<double>::epsilon();
+  constexpr double       tiny    = 1e-150; // its square is not zero
   const double           m_pq    = m[p][q];
-  if (!(std::abs(m_pq) > epsilon * (std::abs(m[p][p]) + std::abs(m[q][q]))))
+  if (!(std::abs(m_pq) > epsilon * (std::abs(m[p][p]) + std::abs(m[q][q])) + tiny))
     return false;
   const double d = m[q][q] - m[p][p];
   const double t = std::copysign(2., d) * m_pq / (std::abs(d) + std::sqrt(d * d + 4 * m_pq * m_pq));
