@@ -42,8 +42,7 @@ Checkpoint<dim>::read(const std::string &directory, const MPI_Comm communicator)
     }
   catch (const boost::archive::archive_exception &error)
     {
-      throw UserError(directory,
-                      std::string("the checkpoint is not understood: ") + error.what(),
+      throw UserError(directory, std::string("the checkpoint is not understood: ") + error.what(),
                       "go on with the version of scree that wrote it (see log.txt)");
     }
   result.warning = file.warning;
@@ -55,8 +54,7 @@ require_resumable(const std::map<std::string, std::string> &before,
                   const std::map<std::string, std::string> &now)
 {
   const auto may_change = [](const std::string &path) {
-    const auto begins
-      = [&path](const std::string &section) { return path.rfind(section, 0) == 0; };
+    const auto begins = [&path](const std::string &section) { return path.rfind(section, 0) == 0; };
     return path == "Title" || begins("Time/") || begins("Solver/")
            || (begins("Output/") && !begins("Output/Probes/"));
   };

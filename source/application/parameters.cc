@@ -23,6 +23,12 @@ OutputParameters<dim>::declare(ParameterSection &section)
                 "The contact surface is written as CSV and VTU after every so many load steps; 0: "
                 "never.");
   section.entry("Log iterations", log_iterations, "Write a line per Newton iteration to the log.");
+  section.entry("Checkpoint every", checkpoint_every,
+                "What scree --resume needs is written after every so many load steps and after the "
+                "last one; 0: not by steps.");
+  section.entry("Checkpoint minutes", checkpoint_minutes, dealii::Patterns::Double(0.),
+                "It is also written after a step that ends so many minutes of wall time or more "
+                "after the last time; 0: not by time.");
   ParameterSection probe_section
     = section.subsection("Probes", "Points and lines where fields are tabulated.");
   for (auto &[name, subsection] : probe_section.named("Names", "Names of points and lines."))
@@ -51,6 +57,13 @@ Parameters<dim>::declare(ParameterFile &file)
                        "dimension.");
 
   materials = declare_materials(root);
+  // The geometry stays in its initial configuration.
+  for (const auto &[name, material] : materials)
+    if (needs_moving_geometry(material.law))
+      root.subsection("Materials", "")
+        .subsection(name, "")
+        .error("Law", "the law needs a geometry that moves with the bodies, and here it is fixed",
+               "choose linear elastic");
   std::vector<std::string> material_names, body_names;
   for (const auto &entry : materials)
     material_names.push_back(entry.first);

@@ -4,7 +4,6 @@
 #include <scree/mechanics/linear_prediction.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +14,18 @@ namespace scree
 {
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
-                            const MPI_Comm communicator)
+                            const MPI_Comm communicator, const Checkpoint<dim> *checkpoint)
     : parameters(parameters)
     , communicator(communicator)
-    , log(communicator, output_directory + "/log.txt")
+    , log(communicator, output_directory + "/log.txt", checkpoint != nullptr)
     , directory(output_directory)
     , grid(std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator))
     , step_control(parameters.time)
 {
   set_up();
   report_set_up();
+  if (checkpoint)
+    resume(*checkpoint);
 }
 
 template <int dim>
@@ -53,7 +54,7 @@ Simulation<dim>::set_up()
   state.displacement = zero_displacement(*fields);
   state.contact      = contact->initial_history();
   if (is_moving())
-    start_step({}, {}, {});
+    start_step();
   // Probes outside their bodies are told before anything is computed.
   for (const auto &probe : parameters.output.probes)
     results->sample_probe(probe, *bulk, equilibrium->with_ghosts(state.displacement));
@@ -172,6 +173,7 @@ Simulation<dim>::run()
         if (is_moving())
           move_geometry();
         results->write_history();
+        save_if_due();
       }
     else
       {
@@ -189,9 +191,15 @@ Simulation<dim>::run()
         log.line("  the step is tried again with "
                  + short_number(100. * step_control.step_fraction()) + "% of its length");
       }
+  require(results->flush(), directory,
+          "rows of history.csv or probes.csv could not be written to the last",
+          "make room on the disk and go on with scree --resume " + directory);
   log.line("Wall time by part:");
   for (const auto &[name, seconds] : timings.parts())
     log.line("  " + name + ": " + short_number(seconds) + " s");
+  if (n_checkpoints > 0)
+    log.line("Checkpoints: " + std::to_string(n_checkpoints) + ", the last of "
+             + short_number(1e-6 * checkpoint_bytes) + " MB");
   log.line("Finished in " + short_duration(wall.wall_time()) + " with "
            + std::to_string(step_control.n_rejected())
            + " rejected step(s). Results: " + directory);

@@ -54,12 +54,12 @@ Simulation<dim>::save_if_due()
     log.line("Warning: rows of history.csv or probes.csv cannot be written (is the disk full?). "
              "They are kept and tried again after the next step; no checkpoint is written "
              "meanwhile, the last one remains");
-  const bool by_steps = output.checkpoint_every > 0
-                        && (step_control.n_accepted() % output.checkpoint_every == 0
-                            || step_control.finished());
-  const bool by_time
-    = output.checkpoint_minutes > 0.
-      && (since_checkpoint.wall_time() > 60. * output.checkpoint_minutes || step_control.finished());
+  const bool by_steps
+    = output.checkpoint_every > 0
+      && (step_control.n_accepted() % output.checkpoint_every == 0 || step_control.finished());
+  const bool by_time = output.checkpoint_minutes > 0.
+                       && (since_checkpoint.wall_time() > 60. * output.checkpoint_minutes
+                           || step_control.finished());
   // The first process, which has the clock and writes the tables, decides.
   if (!dealii::Utilities::MPI::broadcast(communicator, is_written && (by_steps || by_time)))
     return;
@@ -122,14 +122,14 @@ Simulation<dim>::collect_fixed() const
   const auto     &increments = last_increment;
   result.energies            = equilibrium->energies();
   result.nodes               = PlacedValues<dim>(2 * dim, origin, length);
-  for_each_node(*fields, [&](const unsigned int body, const dealii::Point<dim> &x,
-                             const DofIndex first) {
-    std::vector<double> row;
-    for (const auto *vector : {&state.displacement, &increments})
-      for (unsigned int d = 0; d < dim; ++d)
-        row.push_back((*vector)(first + d));
-    result.nodes.add(body, x, row);
-  });
+  for_each_node(*fields,
+                [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
+                  std::vector<double> row;
+                  for (const auto *vector : {&state.displacement, &increments})
+                    for (unsigned int d = 0; d < dim; ++d)
+                      row.push_back((*vector)(first + d));
+                  result.nodes.add(body, x, row);
+                });
   result.nodes.gather(communicator);
 
   result.contact = PlacedValues<dim>(2 * dim + 2, origin, length);
@@ -214,13 +214,13 @@ void
 Simulation<dim>::resume_fixed(const FixedState<dim> &saved)
 {
   last_increment = state.displacement;
-  for_each_node(*fields, [&](const unsigned int body, const dealii::Point<dim> &x,
-                             const DofIndex first) {
-    const double *row = row_of(saved.nodes, body, x, directory);
-    for (auto *vector : {&state.displacement, &last_increment})
-      for (unsigned int d = 0; d < dim; ++d)
-        (*vector)(first + d) = *row++;
-  });
+  for_each_node(*fields,
+                [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
+                  const double *row = row_of(saved.nodes, body, x, directory);
+                  for (auto *vector : {&state.displacement, &last_increment})
+                    for (unsigned int d = 0; d < dim; ++d)
+                      (*vector)(first + d) = *row++;
+                });
   for (unsigned int i = 0; i < fields->n_trailing(); ++i)
     {
       const DofIndex unknown = fields->n_dofs() - fields->n_trailing() + i;
@@ -235,7 +235,7 @@ Simulation<dim>::resume_fixed(const FixedState<dim> &saved)
   for (unsigned int i = 0; i < contact->points().size(); ++i)
     {
       const ContactPoint<dim> &point = contact->points()[i];
-      const double *row = row_of(saved.contact, point.pair, point.position, directory);
+      const double            *row   = row_of(saved.contact, point.pair, point.position, directory);
       std::copy_n(row, dim, state.contact.tau[i].begin_raw());
       std::copy_n(row + dim, dim, state.contact.jump[i].begin_raw());
       state.contact.pressure[i] = row[2 * dim];
@@ -244,11 +244,11 @@ Simulation<dim>::resume_fixed(const FixedState<dim> &saved)
   equilibrium->resume(state.time, state.displacement, state.contact, saved.energies);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                      \
-  template void            Simulation<dim>::save_if_due();                          \
-  template Checkpoint<dim> Simulation<dim>::collect() const;                        \
-  template FixedState<dim> Simulation<dim>::collect_fixed() const;                  \
-  template void            Simulation<dim>::resume(const Checkpoint<dim> &);        \
+#define SCREE_INSTANTIATE(dim)                                                       \
+  template void            Simulation<dim>::save_if_due();                           \
+  template Checkpoint<dim> Simulation<dim>::collect() const;                         \
+  template FixedState<dim> Simulation<dim>::collect_fixed() const;                   \
+  template void            Simulation<dim>::resume(const Checkpoint<dim> &);         \
   template void            Simulation<dim>::resume_moving(const MovingState<dim> &); \
   template void            Simulation<dim>::resume_fixed(const FixedState<dim> &);
 

@@ -145,9 +145,10 @@ Simulation<dim>::move_geometry()
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step();
-  record.volumes   = bulk->volumes();
-  record.points    = state.points.totals(bodies.size(), communicator);
-  record.transfers = transferred_forces(*contact, state.step_end.contact, state.contact, communicator);
+  record.volumes = bulk->volumes();
+  record.points  = state.points.totals(bodies.size(), communicator);
+  record.transfers
+    = transferred_forces(*contact, state.step_end.contact, state.contact, communicator);
   results->gather_motion(record);
 }
 
@@ -204,15 +205,15 @@ Simulation<dim>::predicted(const double time) const
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                           \
-  template void                Simulation<dim>::set_up_points();                                                         \
-  template void                Simulation<dim>::seed_points();                                                           \
-  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                            \
-    const typename Equilibrium<dim>::Vector &) const;                                                                    \
-  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                         \
-    const;                                                                                                               \
-  template void                              Simulation<dim>::move_geometry();                                           \
-  template void                              Simulation<dim>::start_step(); \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template void                Simulation<dim>::set_up_points();                                 \
+  template void                Simulation<dim>::seed_points();                                   \
+  template MaterialPoints<dim> Simulation<dim>::moved_points(                                    \
+    const typename Equilibrium<dim>::Vector &) const;                                            \
+  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &) \
+    const;                                                                                       \
+  template void                              Simulation<dim>::move_geometry();                   \
+  template void                              Simulation<dim>::start_step();                      \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

@@ -121,7 +121,7 @@ void
 Simulation<dim>::report_step(const double wall_time)
 {
   const double done = step_control.time() / parameters.time.end_time;
-  const double left = wall_time * (1. - done) / done;
+  const double left = wall_time * (1. - done) / (done - fraction_at_restart);
   double       open = 0., stick = 0., slip = 0.;
   for (const auto &summary : summarise_contact(*contact, communicator))
     {

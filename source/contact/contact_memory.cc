@@ -1,8 +1,8 @@
 #include <scree/contact/contact_memory.h>
+#include <scree/contact/surface_fit.h>
 #include <scree/points/point_search.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,64 +18,13 @@ namespace
 constexpr double reach_in_cells  = 2.;
 constexpr double smallest_cosine = 0.5; // between the normals of neighbours
 
-/** Tangents of a surface. */
-template <int dim>
-using Frame = std::array<Tensor<1, dim>, dim - 1>;
-
-/** Orthonormal tangents with t_1 x t_2 = n; 2D: n is t_1 turned to the left. */
-template <int dim>
-Frame<dim>
-tangents(const Tensor<1, dim> &normal)
-{
-  Frame<dim> result;
-  if constexpr (dim == 2)
-    {
-      result[0][0] = normal[1];
-      result[0][1] = -normal[0];
-    }
-  else
-    {
-      unsigned int smallest = 0;
-      for (unsigned int d = 1; d < dim; ++d)
-        if (std::abs(normal[d]) < std::abs(normal[smallest]))
-          smallest = d;
-      result[0] = -normal[smallest] * normal;
-      result[0][smallest] += 1.;
-      result[0] /= result[0].norm();
-      result[1] = cross_product_3d(normal, result[0]);
-    }
-  return result;
-}
-
-/** The normal of orthonormal tangents. */
-template <int dim>
-Tensor<1, dim>
-normal_of(const Frame<dim> &tangents)
-{
-  if constexpr (dim == 2)
-    return Tensor<1, 2>({-tangents[0][1], tangents[0][0]});
-  else
-    return cross_product_3d(tangents[0], tangents[1]);
-}
-
-/** R v for v normal to `from`, R the smallest rotation that turns the unit vector `from` to `to`.
- */
+/** R v for v normal to `from`, R the smallest rotation of the unit vector `from` to `to`. */
 template <int dim>
 Tensor<1, dim>
 turned(const Tensor<1, dim> &v, const Tensor<1, dim> &from, const Tensor<1, dim> &to)
 {
   return v - (to * v) / (1. + from * to) * (from + to);
 }
-
-/** A remembered point next to a place of the surface. */
-template <int dim>
-struct Neighbour
-{
-  unsigned int       entry;
-  double             square; //!< of the distance
-  double             weight; //!< the sum over all is 1
-  Tensor<1, dim - 1> place;  //!< in the tangent plane
-};
 
 /** Finds remembered points. */
 template <int dim>
@@ -98,21 +47,24 @@ public:
   template <typename Weight>
   void find(const std::pair<unsigned int, unsigned int> &bodies, const ContactPoint<dim> &x,
             const bool is_interpolating, const Weight &weight,
-            std::vector<Neighbour<dim>> &neighbours) const
+            std::vector<SurfaceNeighbour<dim>> &neighbours) const
   {
     neighbours.clear();
     const auto pair = pair_numbers.find(bodies);
     if (pair == pair_numbers.end())
       return;
-    const auto   tangent = tangents<dim>(x.normal);
+    const auto   tangent = surface_tangents<dim>(x.normal);
     const double radius  = reach_in_cells * std::max(x.cell_size, largest_cell);
     search.for_each_within(
       pair->second, x.position, radius, [&](const unsigned int entry, const double square) {
         const double reach = reach_in_cells * std::max(x.cell_size, memory.cell_size[entry]);
         if (square >= reach * reach || x.normal * memory.normal[entry] < smallest_cosine)
           return;
-        Neighbour<dim>       neighbour{entry, square, weight(square, square / (reach * reach)), {}};
-        const Tensor<1, dim> arm = memory.position[entry] - x.position;
+        SurfaceNeighbour<dim> neighbour{entry,
+                                        square,
+                                        weight(square, square / (reach * reach)),
+                                        {}};
+        const Tensor<1, dim>  arm = memory.position[entry] - x.position;
         for (unsigned int k = 0; k < dim - 1; ++k)
           neighbour.place[k] = tangent[k] * arm;
         neighbours.push_back(neighbour);
@@ -127,7 +79,8 @@ public:
   }
 
 private:
-  static void keep_coinciding(const double tolerance, std::vector<Neighbour<dim>> &neighbours)
+  static void keep_coinciding(const double                        tolerance,
+                              std::vector<SurfaceNeighbour<dim>> &neighbours)
   {
     const auto nearest
       = std::min_element(neighbours.begin(), neighbours.end(),
@@ -155,49 +108,6 @@ private:
   PointSearch<dim>                                              search;
 };
 
-/**
- * Weighted linear least squares in the tangent plane: of values f_i at xi_i with mean xi the slope
- * is C^{-1} sum w_i (xi_i - xi) f_i, C = sum w_i (xi_i - xi)(xi_i - xi)^T.
- */
-template <int dim>
-class LinearFit
-{
-public:
-  /** `length` [L] of the neighbourhood. */
-  LinearFit(const std::vector<Neighbour<dim>> &neighbours, const double length)
-  {
-    for (const auto &neighbour : neighbours)
-      mean += neighbour.weight * neighbour.place;
-    SymmetricTensor<2, dim - 1> C;
-    for (const auto &neighbour : neighbours)
-      {
-        const Tensor<1, dim - 1> arm = neighbour.place - mean;
-        for (unsigned int k = 0; k < dim - 1; ++k)
-          for (unsigned int l = 0; l <= k; ++l)
-            C[k][l] += neighbour.weight * arm[k] * arm[l];
-        is_outside = is_outside && neighbour.place * mean > 0.;
-      }
-    constexpr double smallest_ratio = 1e-4; // about that of the eigenvalues
-    is_linear                       = trace(C) > 1e-18 * length * length
-                && determinant(C) > smallest_ratio * std::pow(trace(C), dim - 1);
-    if (is_linear)
-      inverse = invert(C);
-  }
-
-  /** s with slope . v = sum_i w_i (s . (xi_i - xi)) f_i. */
-  Tensor<1, dim - 1> direction(const Tensor<1, dim - 1> &v) const
-  {
-    return inverse * v;
-  }
-
-  Tensor<1, dim - 1> mean;
-  bool               is_outside = true;  //!< all neighbours lie on one side
-  bool               is_linear  = false; //!< their places determine a slope
-
-private:
-  SymmetricTensor<2, dim - 1> inverse;
-};
-
 double
 length(const double value)
 {
@@ -211,76 +121,86 @@ length(const Tensor<1, dim> &value)
   return value.norm();
 }
 
-/** The fit at the origin, bounded as recall() says; `values` of the neighbours. */
+/** sum_i factors_i values_i over the neighbours, bounded as recall() says. */
 template <int dim, typename T>
 T
-bounded_fit(const std::vector<Neighbour<dim>> &neighbours, const LinearFit<dim> &fit,
-            const std::vector<T> &values)
+bounded_fit(const std::vector<SurfaceNeighbour<dim>> &neighbours,
+            const std::vector<double> &factors, const bool is_outside, const std::vector<T> &values)
 {
-  const Tensor<1, dim - 1> direction = fit.direction(-fit.mean);
-  T                        mean{}, linear{};
-  double                   scatter = 0., largest = 0.;
+  T      mean{}, change{};
+  double scatter = 0., largest = 0.;
+  for (unsigned int i = 0; i < values.size(); ++i)
+    mean += neighbours[i].weight * values[i];
   for (unsigned int i = 0; i < values.size(); ++i)
     {
-      const auto &neighbour = neighbours[i];
-      mean += neighbour.weight * values[i];
-      linear += neighbour.weight * (direction * (neighbour.place - fit.mean)) * values[i];
+      change += factors[i] * (values[i] - mean);
+      scatter = std::max(scatter, length(values[i] - mean));
       largest = std::max(largest, length(values[i]));
     }
-  for (const T &value : values)
-    scatter = std::max(scatter, length(value - mean));
-  if (length(linear) > scatter)
-    linear *= scatter / length(linear);
-  T result = mean + linear;
-  if (fit.is_outside && result * mean < 0.)
+  if (length(change) > scatter)
+    change *= scatter / length(change);
+  T result = mean + change;
+  if (!is_outside)
+    return result;
+  if (result * mean < 0.)
     return T{};
   if (length(result) > largest)
     result *= largest / length(result);
   return result;
 }
 
-/** t_k + dm/dt_k of tangents t_k, m the displacement. */
-template <int dim>
-Frame<dim>
-deformed(const Frame<dim> &frame, const std::vector<Neighbour<dim>> &neighbours,
-         const LinearFit<dim> &fit, const std::vector<Tensor<1, dim>> &displacement)
+/** Derivatives of f(entry), a position, along the tangents. */
+template <int dim, typename F>
+SurfaceTangents<dim>
+slopes(const std::vector<SurfaceNeighbour<dim>> &neighbours, const LinearFit<dim> &fit, const F &f)
 {
-  Frame<dim> result = frame;
+  SurfaceTangents<dim> result;
   for (unsigned int k = 0; k < dim - 1; ++k)
     {
       Tensor<1, dim - 1> axis;
       axis[k]              = 1.;
       const auto direction = fit.direction(axis);
       for (const auto &neighbour : neighbours)
-        result[k] += neighbour.weight * (direction * (neighbour.place - fit.mean))
-                     * displacement[neighbour.entry];
+        result[k]
+          += neighbour.weight * (direction * (neighbour.place - fit.mean)) * f(neighbour.entry);
     }
   return result;
 }
 
-/** T' = E (T'^T T')^{1/2}: the rotated tangents E and the area ratio. */
+/** T = E (T^T T)^{1/2}: the orthonormal frame E of two tangents T, its normal, the area ratio. */
 template <int dim>
-struct FrameMotion
+struct SurfaceFrame
 {
-  explicit FrameMotion(const Frame<dim> &deformed)
+  explicit SurfaceFrame(const SurfaceTangents<dim> &T)
   {
     SymmetricTensor<2, dim - 1> metric;
     for (unsigned int k = 0; k < dim - 1; ++k)
       for (unsigned int l = 0; l <= k; ++l)
-        metric[k][l] = deformed[k] * deformed[l];
-    stretch                          = std::sqrt(determinant(metric));
+        metric[k][l] = T[k] * T[l];
+    area                             = std::sqrt(determinant(metric));
     SymmetricTensor<2, dim - 1> root = metric; // S^{1/2} = (S + J I)/(tr S + 2 J)^{1/2} in 3D
     for (unsigned int k = 0; k < dim - 1; ++k)
-      root[k][k] += stretch;
-    root /= dim == 2 ? 1. + stretch : std::sqrt(trace(metric) + 2. * stretch);
+      root[k][k] += area;
+    root /= dim == 2 ? 1. + area : std::sqrt(trace(metric) + 2. * area);
     const SymmetricTensor<2, dim - 1> inverse = invert(root);
     for (unsigned int k = 0; k < dim - 1; ++k)
       for (unsigned int l = 0; l < dim - 1; ++l)
-        frame[k] += inverse[k][l] * deformed[l];
+        E[k] += inverse[k][l] * T[l];
+    normal = surface_normal<dim>(E);
   }
 
-  double     stretch;
-  Frame<dim> frame;
+  /** R v, R the rotation of this frame to the other one. */
+  Tensor<1, dim> turned(const Tensor<1, dim> &v, const SurfaceFrame &to) const
+  {
+    Tensor<1, dim> result = (normal * v) * to.normal;
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      result += (E[k] * v) * to.E[k];
+    return result;
+  }
+
+  double               area;
+  SurfaceTangents<dim> E;
+  Tensor<1, dim>       normal;
 };
 
 /** A row of numbers per point, all processes' rows in the order of bodies and places. */
@@ -348,9 +268,9 @@ ContactMemory<dim>
 moved(const ContactMemory<dim> &memory, const std::vector<Tensor<1, dim>> &displacement)
 {
   AssertDimension(displacement.size(), memory.size());
-  const SurfaceSearch<dim>    search(memory);
-  std::vector<Neighbour<dim>> neighbours;
-  ContactMemory<dim>          result = memory;
+  const SurfaceSearch<dim>           search(memory);
+  std::vector<SurfaceNeighbour<dim>> neighbours;
+  ContactMemory<dim>                 result = memory;
   for (std::size_t i = 0; i < memory.size(); ++i)
     {
       result.position[i] += displacement[i];
@@ -361,16 +281,19 @@ moved(const ContactMemory<dim> &memory, const std::vector<Tensor<1, dim>> &displ
       const LinearFit<dim> fit(neighbours, memory.cell_size[i]);
       if (!fit.is_linear)
         continue;
-      const Frame<dim>       old_frame = tangents<dim>(memory.normal[i]);
-      const FrameMotion<dim> motion(deformed(old_frame, neighbours, fit, displacement));
-      if (!(motion.stretch > 0.1))
+      const SurfaceFrame<dim> before(slopes(neighbours, fit, [&](const unsigned int entry) {
+        return memory.position[entry] - memory.position[i];
+      }));
+      const SurfaceFrame<dim> after(slopes(neighbours, fit, [&](const unsigned int entry) {
+        return memory.position[entry] - memory.position[i] + displacement[entry] - displacement[i];
+      }));
+      const double            stretch = after.area / before.area;
+      if (!(stretch > 0.1))
         continue; // the step folds the surface
-      result.normal[i] = normal_of<dim>(motion.frame);
-      result.tau[i]    = 0.;
-      for (unsigned int k = 0; k < dim - 1; ++k)
-        result.tau[i] += (old_frame[k] * memory.tau[i]) / motion.stretch * motion.frame[k];
-      result.weight[i] *= motion.stretch;
-      result.pressure[i] /= motion.stretch;
+      result.normal[i] = before.turned(memory.normal[i], after);
+      result.tau[i]    = before.turned(memory.tau[i], after) / stretch;
+      result.weight[i] *= stretch;
+      result.pressure[i] /= stretch;
     }
   return result;
 }
@@ -380,12 +303,12 @@ ContactHistory<dim>
 recall(const std::vector<ContactPoint<dim>> &points, const std::vector<ContactPair> &pairs,
        const ContactMemory<dim> &memory)
 {
-  const std::vector<Tensor<1, dim>> zeros(points.size());
-  ContactHistory<dim>               history{zeros, zeros, std::vector<double>(points.size())};
-  const SurfaceSearch<dim>          search(memory);
-  std::vector<Neighbour<dim>>       neighbours;
-  std::vector<Tensor<1, dim>>       tau;
-  std::vector<double>               pressure;
+  const std::vector<Tensor<1, dim>>  zeros(points.size());
+  ContactHistory<dim>                history{zeros, zeros, std::vector<double>(points.size())};
+  const SurfaceSearch<dim>           search(memory);
+  std::vector<SurfaceNeighbour<dim>> neighbours;
+  std::vector<Tensor<1, dim>>        tau;
+  std::vector<double>                factors, pressure;
   for (std::size_t i = 0; i < points.size(); ++i)
     {
       const ContactPoint<dim> &point   = points[i];
@@ -399,17 +322,19 @@ recall(const std::vector<ContactPoint<dim>> &points, const std::vector<ContactPa
         neighbours);
       if (neighbours.empty())
         continue;
+      const InterpolatingFit<dim> fit(neighbours, point.cell_size);
+      factors.clear();
       tau.clear();
       pressure.clear();
       for (const auto &neighbour : neighbours)
         {
+          factors.push_back(fit.factor(neighbour));
           tau.push_back(
             turned(memory.tau[neighbour.entry], memory.normal[neighbour.entry], point.normal));
           pressure.push_back(memory.pressure[neighbour.entry]);
         }
-      const LinearFit<dim> fit(neighbours, point.cell_size);
-      history.tau[i]      = bounded_fit(neighbours, fit, tau);
-      history.pressure[i] = bounded_fit(neighbours, fit, pressure);
+      history.tau[i]      = bounded_fit(neighbours, factors, fit.is_outside, tau);
+      history.pressure[i] = bounded_fit(neighbours, factors, fit.is_outside, pressure);
     }
   return history;
 }

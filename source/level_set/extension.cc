@@ -1,5 +1,7 @@
 #include <scree/level_set/extension.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -56,7 +58,13 @@ private:
   // sticks out.
   Gradient gradient_of_known(std::size_t node, unsigned int axis) const;
 
-  // The same; false if no neighbour there is known.
+  // The gradient at a known node: of a fit if that is wanted and possible, else of differences.
+  std::array<Gradient, dim> gradient_of_known(std::size_t node) const;
+
+  // The gradient of the affine fit around a known node; false if the nodes do not determine it.
+  bool fitted_gradient(std::size_t node, std::array<Gradient, dim> &result) const;
+
+  // The differences at this node only; false if no neighbour there is known.
   bool difference_of_known(std::size_t node, unsigned int axis, Gradient &result) const;
 
   // Numbers the gradients of the nodes to extend to and of the known ones that their stencils
@@ -67,6 +75,7 @@ private:
 
   const Lattice<dim>             &phi;
   const bool                      linear;
+  const int                       fit;
   Values                         &v;
   std::vector<char>               has_value;
   std::array<std::ptrdiff_t, dim> stride;
@@ -80,6 +89,7 @@ Extension<dim, n_components>::Extension(const Lattice<dim> &phi, const std::vect
                                         const ExtensionOptions &options, Values &v)
     : phi(phi)
     , linear(options.extrapolation == Extrapolation::linear)
+    , fit(options.fit)
     , v(v)
     , has_value(known)
 {
@@ -221,6 +231,71 @@ Extension<dim, n_components>::gradient_of_known(const std::size_t  node,
 }
 
 template <int dim, std::size_t n_components>
+std::array<typename Extension<dim, n_components>::Gradient, dim>
+Extension<dim, n_components>::gradient_of_known(const std::size_t node) const
+{
+  std::array<Gradient, dim> result;
+  if (fit > 0 && fitted_gradient(node, result))
+    return result;
+  for (unsigned int axis = 0; axis < dim; ++axis)
+    result[axis] = gradient_of_known(node, axis);
+  return result;
+}
+
+template <int dim, std::size_t n_components>
+bool
+Extension<dim, n_components>::fitted_gradient(const std::size_t          node,
+                                              std::array<Gradient, dim> &result) const
+{
+  // moments of the known nodes around, in spacings: sums of 1, x, x x^T, v - v(node) and x (v - ..)
+  double                                   n = 0;
+  Tensor<1, dim>                           sum_x;
+  Tensor<2, dim>                           moment;
+  Gradient                                 sum_v{};
+  std::array<Tensor<1, dim>, n_components> sum_xv{};
+  const auto                               at = position(node);
+  std::array<int, dim>                     shift;
+  shift.fill(-fit);
+  while (shift[dim - 1] <= fit)
+    {
+      std::ptrdiff_t to       = 0;
+      bool           is_known = true;
+      Tensor<1, dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          to += shift[d] * stride[d];
+          x[d] = shift[d];
+          is_known &= exists(at, d, shift[d]);
+        }
+      if (is_known && has_value[node + to])
+        {
+          n += 1;
+          sum_x += x;
+          moment += outer_product(x, x);
+          for (std::size_t c = 0; c < n_components; ++c)
+            {
+              const double difference = v[c][node + to] - v[c][node];
+              sum_v[c] += difference;
+              sum_xv[c] += difference * x;
+            }
+        }
+      for (unsigned int d = 0; ++shift[d] > fit && d + 1 < dim; ++d)
+        shift[d] = -fit;
+    }
+  moment -= outer_product(sum_x, sum_x) / n;
+  if (determinant(moment) < 0.1) // the nodes lie in a plane
+    return false;
+  const Tensor<2, dim> inverse = invert(moment);
+  for (std::size_t c = 0; c < n_components; ++c)
+    {
+      const Tensor<1, dim> gradient = inverse * (sum_xv[c] - sum_v[c] / n * sum_x);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        result[axis][c] = gradient[axis];
+    }
+  return true;
+}
+
+template <int dim, std::size_t n_components>
 void
 Extension<dim, n_components>::set_gradients_of_known()
 {
@@ -239,8 +314,8 @@ Extension<dim, n_components>::set_gradients_of_known()
             if (!exists(at, d, k) || !has_value[reached] || gradients_at[reached] != none)
               continue;
             gradients_at[reached] = gradients.size();
-            for (unsigned int axis = 0; axis < dim; ++axis)
-              gradients.push_back(gradient_of_known(reached, axis));
+            const auto G          = gradient_of_known(reached);
+            gradients.insert(gradients.end(), G.begin(), G.end());
           }
     }
 }

@@ -1,5 +1,6 @@
 #include <scree/material/logarithmic_strain.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,26 +10,37 @@ using namespace dealii;
 
 namespace
 {
-/** Rotates in the plane (p, q) such that `m[p][q]` vanishes; r is the third direction. */
-void
-eliminate(Tensor<2, 3> &m, Tensor<2, 3> &vectors, const unsigned int p, const unsigned int q)
+/**
+ * Rotates in the plane (p, q) such that `m[p][q]` vanishes, unless it is negligible; r is the third
+ * direction. Only the upper triangle of `m` is used. Returns whether it rotated.
+ */
+template <unsigned int p, unsigned int q>
+bool
+eliminate(Tensor<2, 3> &m, Tensor<2, 3> &vectors)
 {
-  const unsigned int r = 3 - p - q;
-  const double       w = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-  const double       t = std::copysign(1., w) / (std::abs(w) + std::sqrt(w * w + 1));
-  const double       c = 1 / std::sqrt(t * t + 1), s = t * c;
-  m[p][p] -= t * m[p][q];
-  m[q][q] += t * m[p][q];
-  m[p][q] = m[q][p] = 0;
-  const double m_rp = m[r][p], m_rq = m[r][q];
-  m[r][p] = m[p][r] = c * m_rp - s * m_rq;
-  m[r][q] = m[q][r] = s * m_rp + c * m_rq;
+  constexpr unsigned int r       = 3 - p - q;
+  constexpr double       epsilon = 0.25 * std::numeric_limits<double>::epsilon();
+  constexpr double       tiny    = 1e-150; // its square is not zero
+  const double           m_pq    = m[p][q];
+  if (!(std::abs(m_pq) > epsilon * (std::abs(m[p][p]) + std::abs(m[q][q])) + tiny))
+    return false;
+  const double d = m[q][q] - m[p][p];
+  const double t = std::copysign(2., d) * m_pq / (std::abs(d) + std::sqrt(d * d + 4 * m_pq * m_pq));
+  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+  m[p][p] -= t * m_pq;
+  m[q][q] += t * m_pq;
+  m[p][q]           = 0;
+  double      &m_pr = m[std::min(p, r)][std::max(p, r)], &m_qr = m[std::min(q, r)][std::max(q, r)];
+  const double old_pr = m_pr, old_qr = m_qr;
+  m_pr = c * old_pr - s * old_qr;
+  m_qr = s * old_pr + c * old_qr;
   for (unsigned int i = 0; i < 3; ++i)
     {
       const double v_p = vectors[i][p], v_q = vectors[i][q];
       vectors[i][p] = c * v_p - s * v_q;
       vectors[i][q] = s * v_p + c * v_q;
     }
+  return true;
 }
 
 /** `(ln a - ln b)/(a - b)` of two positive numbers. */
@@ -49,23 +61,18 @@ Eigensystem::rotate(const Tensor<2, 3> &principal) const
 Eigensystem
 eigensystem(const Tensor<2, 3> &symmetric)
 {
-  Tensor<2, 3> m       = symmetric;
-  Eigensystem  result  = {{{0, 0, 0}}, Tensor<2, 3>()};
-  const double epsilon = 0.25 * std::numeric_limits<double>::epsilon();
+  Tensor<2, 3> m      = symmetric;
+  Eigensystem  result = {{{0, 0, 0}}, Tensor<2, 3>()};
   for (unsigned int i = 0; i < 3; ++i)
     result.vectors[i][i] = 1;
-  bool rotated = true;
   // Jacobi's method converges quadratically: five sweeps are much, the bound only ends NaN.
-  for (unsigned int sweep = 0; sweep < 20 && rotated; ++sweep)
+  for (unsigned int sweep = 0; sweep < 20; ++sweep)
     {
-      rotated = false;
-      for (unsigned int p = 0; p < 2; ++p)
-        for (unsigned int q = p + 1; q < 3; ++q)
-          if (std::abs(m[p][q]) > epsilon * (std::abs(m[p][p]) + std::abs(m[q][q])))
-            {
-              eliminate(m, result.vectors, p, q);
-              rotated = true;
-            }
+      const bool first  = eliminate<0, 1>(m, result.vectors);
+      const bool second = eliminate<0, 2>(m, result.vectors);
+      const bool third  = eliminate<1, 2>(m, result.vectors);
+      if (!first && !second && !third)
+        break;
     }
   for (unsigned int i = 0; i < 3; ++i)
     result.values[i] = m[i][i];

@@ -76,6 +76,10 @@ Equilibrium<dim>::set_up_matrices()
   newton_matrix.reinit(fields.owned(), fields.owned(), pattern, communicator, true);
 
   bulk.add_to_matrix(stiffness);
+  stiffness.compress(dealii::VectorOperation::add);
+  start_forces.reinit(fields.owned(), communicator);
+  if (!is_linear_but_for_contact())
+    stiffness.vmult(start_forces, bulk.step_start()->displacement());
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   for (const DofIndex index : fields.owned())
@@ -187,6 +191,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   stiffness.vmult(internal_forces, u);
   if (!is_linear_but_for_contact())
     {
+      internal_forces += start_forces;
       bulk.add_internal_forces(ghosted, internal_forces);
       boundary_terms.add_internal_forces(ghosted, time, internal_forces);
       internal_forces.compress(dealii::VectorOperation::add);

@@ -82,15 +82,8 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
     }
   energies.dissipation += dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
   store_energies(with_ghost_values);
-  // On a moving geometry the penalty acts on increments and gives nothing back.
-  const double ghost = bulk.ghost_energy(with_ghost_values);
-  if (is_linear_but_for_contact())
-    energies.ghost_penalty = ghost;
-  else
-    {
-      energies.ghost_penalty += ghost;
-      energies.plastic += bulk.work(with_ghost_values).dissipation;
-    }
+  if (!is_linear_but_for_contact())
+    energies.plastic += bulk.work(with_ghost_values).dissipation;
 }
 
 template <int dim>
@@ -108,6 +101,15 @@ Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
   current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
   current_energies.strain   = bulk.work(with_ghost_values).energy;
   current_energies.boundary = boundary_terms.energy(with_ghost_values, time);
+  if (is_linear_but_for_contact())
+    current_energies.ghost_penalty = bulk.ghost_energy(with_ghost_values);
+  else
+    {
+      Vector total(with_ghost_values);
+      total = with_ghosts(bulk.step_start()->displacement());
+      total += with_ghost_values;
+      current_energies.ghost_penalty = bulk.ghost_energy(total);
+    }
 }
 
 template <int dim>
@@ -174,8 +176,10 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
   template void   Equilibrium<dim>::store_energies(const Vector &);                            \
   template void   Equilibrium<dim>::start_step(const double, const Vector &,                   \
                                                const ContactHistory<dim> &, const Energies &); \
-  template void   Equilibrium<dim>::resume(const double, const Vector &, const ContactHistory<dim> &, const Energies &); \
-  template void   Equilibrium<dim>::take_as_accepted(const double, const Vector &, const ContactHistory<dim> &); \
+  template void   Equilibrium<dim>::resume(const double, const Vector &,                       \
+                                           const ContactHistory<dim> &, const Energies &);     \
+  template void   Equilibrium<dim>::take_as_accepted(const double, const Vector &,             \
+                                                     const ContactHistory<dim> &);             \
   template void   Equilibrium<dim>::remember_conditions(const Vector &);
 
 SCREE_INSTANTIATE(2)

@@ -35,7 +35,7 @@ for_each_node(const Lattice<dim> &lattice, const Index<dim> &first, const Index<
   Index<dim> index = first;
   while (index[dim - 1] < end[dim - 1])
     {
-      const std::size_t row = lattice.offset(index) - (index[0] - first[0]);
+      const std::size_t row = lattice.offset(index);
       for (index[0] = first[0]; index[0] < end[0]; ++index[0])
         f(index, row + (index[0] - first[0]));
       for (unsigned int d = 0; index[d] == end[d] && d + 1 < dim; ++d)
@@ -205,6 +205,35 @@ nodes_inside(const Lattice<dim> &lattice, const dealii::BoundingBox<dim> &box)
   return result;
 }
 
+/** The largest |v_d| at known nodes of the body on the faces of a box across axis d. */
+template <int dim>
+double
+largest_through_faces(const Lattice<dim> &lattice, const std::vector<char> &known,
+                      const dealii::BoundingBox<dim> &box, const NodalVectors<dim> &v)
+{
+  const NodeBox<dim> inside = nodes_inside(lattice, box);
+  double             result = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const int side : {0, 1})
+      {
+        const double x     = side == 0 ? box.lower_bound(d) : box.upper_bound(d);
+        Index<dim>   first = inside.lower, end;
+        for (unsigned int e = 0; e < dim; ++e)
+          end[e] = first[e] + inside.n_nodes[e];
+        if (side == 0)
+          end[d] = first[d] + 1;
+        else
+          first[d] = end[d] - 1;
+        if (std::abs(lattice.node(first)[d] - x) > 0.5 * lattice.spacing())
+          continue; // the lattice ends before the face
+        for_each_node(lattice, first, end, [&](const Index<dim> &, const std::size_t offset) {
+          if (known[offset] && lattice.values()[offset] < 0.)
+            result = std::max(result, std::abs(v[d][offset]));
+        });
+      }
+  return result;
+}
+
 /** v(f - d) = v(f) + (v(f) - v(f + m)) d/m, m = d if there are so many nodes, beyond `inside`. */
 template <int dim>
 void
@@ -243,10 +272,12 @@ void
 continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
                   const dealii::BoundingBox<dim> &box, NodalVectors<dim> &v)
 {
+  ExtensionOptions options;
+  options.fit               = 2;
   const NodeBox<dim> inside = nodes_inside(lattice, box);
   if (inside.n_nodes == lattice.n_nodes())
     {
-      extend(lattice, known, ExtensionOptions(), v);
+      extend(lattice, known, options, v);
       return;
     }
   // What the level set does beyond the box must not lead the extension inside.
@@ -264,7 +295,7 @@ continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
       v_part[d][i] = v[d][offset];
     known_part[i++] = known[offset];
   });
-  extend(part, known_part, ExtensionOptions(), v_part);
+  extend(part, known_part, options, v_part);
   i = 0;
   for_each_node(lattice, inside.lower, end, [&](const Index<dim> &, const std::size_t offset) {
     for (unsigned int d = 0; d < dim; ++d)
@@ -356,6 +387,7 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
   std::vector<char> known(phi.values().size());
   for (std::size_t i = 0; i < known.size(); ++i)
     known[i] = v[0][i] != unset;
+  result.face_increment = largest_through_faces<dim>(phi, known, box, v);
   continue_off_body<dim>(phi, known, box, v);
 
   if (has_contour(phi))

@@ -48,7 +48,8 @@ StepStart<dim>::StepStart(const Fields<dim> &fields, const std::vector<Body<dim>
     , locations(locate_points(fields, points))
     , cloud(points.n_internal())
 {
-  Vector distributed = fit_displacement(fields, points, locations);
+  fitted             = fit_displacement(fields, points, locations);
+  Vector distributed = fitted;
   fields.hanging_constraints().distribute(distributed);
   Vector ghosted(fields.owned(), fields.relevant(), fields.grid.communicator());
   ghosted       = distributed;

@@ -294,9 +294,8 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
   contact_records = record.contact;
   if (!is_first)
     return;
-  history = std::make_unique<CsvTable>(directory + "/history.csv",
-                                       history_columns(equilibrium, contact),
-                                       record.n_history_rows);
+  history = std::make_unique<CsvTable>(
+    directory + "/history.csv", history_columns(equilibrium, contact), record.n_history_rows);
   if (record.n_probe_rows > 0)
     probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),
                                              record.n_probe_rows);

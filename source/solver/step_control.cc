@@ -138,8 +138,7 @@ StepControl::resume(const StepControlRecord &record)
             + " (End time/Steps), nor a part of one, begins at the time of the run, "
             + std::to_string(record.time),
           "change Steps together with End time, such that the length of a step remains");
-  length        = std::clamp<std::int64_t>(std::llround(record.length / tick_time), 1,
-                                    ticks_per_step);
+  length = std::clamp<std::int64_t>(std::llround(record.length / tick_time), 1, ticks_per_step);
   easy_in_a_row = record.easy_in_a_row;
   accepted      = record.accepted;
   rejected      = record.rejected;

@@ -118,14 +118,13 @@ write_checkpoint_file(const std::string &directory, const unsigned int dimension
     if (error != 0)
       std::remove(next.c_str());
     require(error == 0, next,
-            "the checkpoint of " + std::to_string(bytes.size())
-              + " bytes cannot be written: " + std::strerror(error),
-            "make room on the disk; the run goes on, and the checkpoint before this one remains");
+                   "the checkpoint of " + std::to_string(bytes.size())
+                     + " bytes cannot be written: " + std::strerror(error),
+                   "make room on the disk; the run goes on, and the checkpoint before this one remains");
   };
   require_done(write_to_disk(next, bytes));
-  require_done(std::rename(newest.c_str(), (newest + ".old").c_str()) != 0 && errno != ENOENT
-                 ? errno
-                 : 0);
+  require_done(
+    std::rename(newest.c_str(), (newest + ".old").c_str()) != 0 && errno != ENOENT ? errno : 0);
   require_done(std::rename(next.c_str(), newest.c_str()) != 0 ? errno : 0);
   const int folder = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0)

@@ -125,6 +125,28 @@ TEST(RigidPose, TurnsAboutTheReferencePoint)
             1e-14);
 }
 
+template <int dim>
+void
+check_initial_position()
+{
+  const RigidBody<dim> body = rigid_body<dim>();
+  Point<dim>           X;
+  for (unsigned int d = 0; d < dim; ++d)
+    X[d] = 1.7 - 2. * d;
+  for (const double angle : {0., 0.3, 2.5})
+    {
+      const RigidPose<dim> pose(body, unknowns<dim>(angle));
+      EXPECT_LE(pose.initial_position(X + pose.displacement(X)).distance(X), 1e-14);
+    }
+  EXPECT_EQ(RigidPose<dim>(body, {}).initial_position(X), X);
+}
+
+TEST(RigidPose, FindsInitialPositions)
+{
+  check_initial_position<2>();
+  check_initial_position<3>();
+}
+
 TEST(RigidPose, KeepsLengthsIn3D)
 {
   const RigidBody<3> body = rigid_body<3>();

@@ -49,9 +49,10 @@ public:
     k.old_jump    = vector();
     k.old_tau     = 3. * vector();
     k.old_tau -= k.normal * (k.normal * k.old_tau);
-    k.eps_n       = 10.;
-    k.eps_t       = 4.;
-    k.closing_gap = 1e-8;
+    k.old_pressure = number(-2., 2.);
+    k.eps_n        = 10.;
+    k.eps_t        = 4.;
+    k.closing_gap  = 1e-8;
     return k;
   }
 
@@ -227,14 +228,45 @@ TEST(ContactLaw, TiedBothWays)
   Random<3> random;
   for (const double motion : {-0.2, 0.2})
     {
-      auto k              = random.kinematics();
-      k.jump              = motion * k.normal + 0.1 * (k.jump - k.normal * (k.normal * k.jump));
+      auto k = random.kinematics();
+      k.jump = k.old_jump + motion * k.normal + 0.1 * (k.jump - k.normal * (k.normal * k.jump));
+      k.jump -= 0.1 * (k.old_jump - k.normal * (k.normal * k.old_jump));
       const auto response = contact_response<3>(ContactLaw::tied, 0., k);
       EXPECT_EQ(response.status, ContactStatus::stick);
       // Whatever the initial gap: tension where the bodies move apart.
-      EXPECT_NEAR(response.pressure, -k.eps_n * motion, 1e-13);
+      EXPECT_NEAR(response.pressure, k.old_pressure - k.eps_n * motion, 1e-13);
       k.jump += 10. * k.normal;
       EXPECT_LE((contact_response<3>(ContactLaw::tied, 0., k).tau - response.tau).norm(), 1e-12);
+    }
+}
+
+TEST(ContactLaw, TiedRemembersItsTraction)
+{
+  // One step, two steps, and two steps with jumps that count from the start of each: the same.
+  Random<3> random;
+  for (unsigned int trial = 0; trial < 20; ++trial)
+    {
+      const auto           first = random.kinematics();
+      const Tensor<1, 3>   end   = first.jump + random.vector();
+      ContactKinematics<3> once = first, again = first, moving = first;
+      once.jump           = end;
+      const auto halfway  = contact_response<3>(ContactLaw::tied, 0., first);
+      const auto expected = contact_response<3>(ContactLaw::tied, 0., once);
+      for (ContactKinematics<3> *k : {&again, &moving})
+        {
+          k->old_jump     = first.jump;
+          k->old_tau      = halfway.tau;
+          k->old_pressure = halfway.pressure;
+          k->jump         = end;
+        }
+      moving.old_jump = Tensor<1, 3>();
+      moving.jump     = end - first.jump;
+      for (const ContactKinematics<3> &k : {again, moving})
+        {
+          const auto response = contact_response<3>(ContactLaw::tied, 0., k);
+          EXPECT_NEAR(response.pressure, expected.pressure, 1e-12);
+          EXPECT_LE((response.tau - expected.tau).norm(), 1e-12);
+        }
     }
 }
 

@@ -1,13 +1,11 @@
 // The intermediate surface between two bodies: where it is, gaps, normals, jumps.
 #include <gtest/gtest.h>
 
-#include <scree/contact/contact_points.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
 
-#include "../discretization/cut_bodies.h"
+#include "contact_model.h"
 
 namespace scree
 {
@@ -15,62 +13,6 @@ namespace
 {
 using namespace dealii;
 using Vector = TrilinosWrappers::MPI::Vector;
-
-template <int dim>
-ContactPoints<dim>
-contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless)
-{
-  std::vector<ContactPair> pairs;
-  for (const auto &[a, b] : model.pairs)
-    {
-      ContactPairParameters parameters;
-      parameters.law = law;
-      pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
-    }
-  return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                            CutBodies<dim>::shift * model.grid.finest_size());
-}
-
-/** u with values body by body, ghosted wherever the stencils reach. */
-template <int dim>
-Vector
-displacement(const CutBodies<dim> &model, const ContactPoints<dim> &contact,
-             const std::function<Tensor<1, dim>(const unsigned int, const Point<dim> &)> &value)
-{
-  const Fields<dim> &fields = *model.fields;
-  Vector             owned(fields.owned(), MPI_COMM_WORLD);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    {
-      const auto &cell = model.grid.cells()[fields.cells()[a].grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          if (fields.owned().is_element(fields.nodes(a)[i] + d))
-            owned(fields.nodes(a)[i] + d)
-              = value(fields.cells()[a].body,
-                      cell.lower + cell.size * Tensor<1, dim>(fields.basis.node(i)))[d];
-    }
-  owned.compress(VectorOperation::insert);
-  IndexSet relevant = fields.relevant();
-  for (const auto &unknowns : contact.couplings())
-    relevant.add_indices(unknowns.begin(), unknowns.end());
-  relevant.compress();
-  Vector result(fields.owned(), relevant, MPI_COMM_WORLD);
-  result = owned;
-  return result;
-}
-
-/** Two half spaces with a plane gap, turned by an angle whose tangent is `slope`. */
-std::string
-two_half_planes(const double slope, const double gap, const unsigned int degree,
-                const std::string &refinement = "")
-{
-  const auto   number = [](const double x) { return std::to_string(x); };
-  const double norm   = std::sqrt(1. + slope * slope);
-  return grid_text("-1, -1", "1, 1", "4, 4", 3, refinement) + degree_text(degree)
-         + bodies_text({{"lower", half_space_text("0, 0.013", number(-slope) + ", 1")},
-                        {"upper", half_space_text("0, " + number(0.013 + gap * norm),
-                                                  number(slope) + ", -1")}});
-}
 
 void
 check_plane(const double slope, const unsigned int degree, const std::string &refinement = "")

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <limits>
 
+#include "shapes.h"
+
 namespace scree
 {
 namespace
@@ -236,6 +238,37 @@ TEST(ReleaseExtension, Rate)
 {
   print_rate<2>(400);
   print_rate<3>(80);
+}
+
+// Gradients of fits: affine fields stay exact, what a jagged part adds stays of its size.
+TEST(Extension, FittedGradientsAreNotJagged)
+{
+  const double h      = 0.05;
+  const auto   phi    = sampled<2>(h, 1, [](const Point<2> &x) { return x.norm() - 0.5; });
+  const auto   affine = [](const Point<2> &x) { return 1. + 0.3 * x[0] - 0.7 * x[1]; };
+  const auto   jagged = [&](const std::size_t i) {
+    const auto index = phi.index(i);
+    return (index[0] + index[1]) % 2 == 0 ? 0.01 : -0.01;
+  };
+  std::vector<char> known;
+  for (const double value : phi.values())
+    known.push_back(value < 1.5 * h);
+  const auto largest_error = [&](const int fit, const bool is_jagged) {
+    std::array<std::vector<double>, 1> v;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      v[0].push_back(affine(phi.node(phi.index(i))) + (is_jagged ? jagged(i) : 0.));
+    ExtensionOptions options;
+    options.fit = fit;
+    extend(phi, known, options, v);
+    double largest = 0;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      largest = std::max(largest, std::abs(v[0][i] - affine(phi.node(phi.index(i)))));
+    return largest;
+  };
+  EXPECT_LT(largest_error(2, false), 1e-12);
+  std::cout << "jagged by 0.01: " << largest_error(0, true) << ", with fits "
+            << largest_error(2, true) << '\n';
+  EXPECT_LT(largest_error(2, true), 0.06);
 }
 } // namespace
 } // namespace scree

@@ -315,6 +315,17 @@ TEST(IncrementSacado, EqualAndNearlyEqualEigenvalues)
     }
 }
 
+TEST(LogarithmicStrain, TinyStrainsAreNoTrouble)
+{
+  for (const double size : {0., 1e-310, 1e-170, 1e-140, 1e-20})
+    {
+      dealii::Tensor<2, 3> shear;
+      shear[0][1] = shear[1][0] = size;
+      shear[1][2] = shear[2][1] = -size;
+      EXPECT_LT((exponential(shear) - unit<3>()).norm(), 1e-15) << size;
+    }
+}
+
 TEST(LogarithmicStrain, EigensystemAndLogarithmAreAccurate)
 {
   std::mt19937 generator(2);

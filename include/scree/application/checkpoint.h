@@ -50,9 +50,9 @@ struct BodyPlace
 template <int dim>
 struct FixedState
 {
-  Energies          energies;
-  PlacedValues<dim> nodes;    //!< by body: displacement, then increment per time of the last step
-  PlacedValues<dim> contact;  //!< by pair: tau, jump, pressure, whether it was closed at some time
+  Energies            energies;
+  PlacedValues<dim>   nodes;   //!< by body: displacement, then increment per time of the last step
+  PlacedValues<dim>   contact; //!< by pair: tau, jump, pressure, whether it was closed at some time
   std::vector<double> trailing; //!< unknowns without a node, the same for them
 
   template <class Archive>
@@ -85,7 +85,7 @@ struct MovingState
 template <int dim>
 struct Checkpoint
 {
-  std::string                                     program; //!< version that wrote it
+  std::string                                     program;    //!< version that wrote it
   std::map<std::string, std::string>              parameters; //!< of the run, value by path
   StepControlRecord                               steps;
   ResultsRecord                                   results;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/checkpoint.h>
 #include <scree/application/parameters.h>
 #include <scree/base/log.h>
 #include <scree/base/timings.h>
@@ -10,6 +11,8 @@
 #include <scree/output/body_output.h>
 #include <scree/output/results.h>
 
+#include <deal.II/base/timer.h>
+
 #include <memory>
 #include <set>
 #include <string>
@@ -17,15 +20,6 @@
 
 namespace scree
 {
-/** The last increment on a moving geometry, to begin the next iteration with. */
-template <int dim>
-struct Predictor
-{
-  std::vector<ExtendedIncrement<dim>>            of_bodies; //!< deformable ones, else empty
-  std::vector<typename RigidPose<dim>::Unknowns> of_rigid;
-  double                                         step_size = 0.; //!< 0: there is none
-};
-
 /** Estimate of the error of the displacement in the energy norm. */
 struct ErrorEstimate
 {
@@ -43,10 +37,11 @@ class Simulation
 public:
   /**
    * @param output_directory where results go; must exist
-   * @throws UserError if the set-up is impossible
+   * @param checkpoint       of the run in that directory, which goes on after it; null: a new run
+   * @throws UserError if the set-up is impossible, or the checkpoint belongs to something else
    */
   Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
-             const MPI_Comm communicator);
+             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint = nullptr);
 
   /** All load steps. @throws UserError if a step cannot be solved. */
   void run();
@@ -106,9 +101,8 @@ private:
    * start of the step. */
   void set_up_points();
   void seed_points();
-  /** Begins a step on the new geometry; `memory` is of the contact of the last one. */
-  void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
-                  const Energies &energies);
+  /** Begins a step on the new geometry, see State::step_end. */
+  void start_step();
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
   /** The material points after the increment, with the law's answers. */
@@ -117,7 +111,16 @@ private:
   std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
   /** The start of the step plus the last increment, scaled to the step. */
   typename Equilibrium<dim>::Vector predicted(const double time) const;
-  void                              report_set_up();
+  // Checkpoints, simulation_checkpoint.cc.
+  /** Writes a checkpoint if one is due after an accepted step; a failure is told in the log. */
+  void            save_if_due();
+  Checkpoint<dim> collect() const;
+  FixedState<dim> collect_fixed() const;
+  /** Goes to the state of a checkpoint; the problem is set up. */
+  void resume(const Checkpoint<dim> &checkpoint);
+  void resume_moving(const MovingState<dim> &saved);
+  void resume_fixed(const FixedState<dim> &saved);
+  void report_set_up();
   /**
    * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
    * prediction, the one with the smallest residual.
@@ -165,6 +168,10 @@ private:
   std::unique_ptr<CondensedSolver>     condensed_solver; //!< made when first needed
   std::unique_ptr<Results<dim>>        results;
   StepControl                          step_control;
+  double                               fraction_at_restart = 0.; //!< of the end time
+  dealii::Timer                        since_checkpoint;
+  unsigned int                         n_checkpoints    = 0;
+  std::size_t                          checkpoint_bytes = 0; //!< of the last one, on process 0
   State<dim>                           state;
   StepRecord                           record;         //!< of the step being solved
   typename Equilibrium<dim>::Vector    last_increment; //!< of the last step, per time

@@ -44,15 +44,15 @@ template <int dim>
 ContactMemory<dim> remember(const ContactPoints<dim> &contact, const MPI_Comm communicator);
 
 /**
- * Moves remembered points by their displacements m: x' = x + m. The gradient of m along the surface
- * (weighted linear least squares over the neighbours, exact for linear m) turns the tangents t_k to
- * t_k' = t_k + dm/dt_k. With T' = (t_1', t_2'), the polar decomposition T' = E (T'^T T')^{1/2} and
- * the area ratio J = det (T'^T T')^{1/2}:
+ * Moves remembered points by their displacements m: x' = x + m. Tangents T of the surface before
+ * and T' after are the slopes of x and x' over the old tangent plane (weighted linear least squares
+ * over the neighbours within two cells). With the polar decompositions T = E (T^T T)^{1/2} and T' =
+ * E' (T'^T T')^{1/2}, R the rotation from E to E' and J the ratio of areas,
  *
- *     n' normal to E,   weight' = J weight,   tau' = E T^T tau/J,   p' = p/J
+ *     n' = R n,   weight' = J weight,   tau' = R tau/J,   p' = p/J,
  *
- * so that the force of a point keeps its length and turns with the surface. Points with too few
- * neighbours keep n, tau and p.
+ * so that the force of a point keeps its length and turns with the surface: exactly for rigid
+ * motions. Points with too few neighbours keep n, tau and p.
  */
 template <int dim>
 ContactMemory<dim> moved(const ContactMemory<dim>                  &memory,
@@ -61,11 +61,13 @@ ContactMemory<dim> moved(const ContactMemory<dim>                  &memory,
 /**
  * History of contact points from what old points of the same bodies remember, with [[u]]_n = 0.
  * Neighbours within two cells whose normals differ by less than 60 degrees are turned into the new
- * tangent plane, keeping their length, and interpolated there: moving least squares with a linear
- * basis and weights (1 - d^2/r^2)^2/d^2 that are singular at d = 0 (Lancaster and Salkauskas, Math.
- * Comp. 37, 1981), so that coinciding points get what was remembered and linear fields on planes
- * are reproduced. The linear part is bounded by the scatter of the neighbours' values, results are
- * at most as large as the largest of these and do not reverse outside them. Zero without
+ * tangent plane, keeping their length, and interpolated there: moving least squares of degree 2, or
+ * 1 where all neighbours lie on one side or their places determine no more (0 if not even that),
+ * with weights (1 - d^2/r^2)^2/d^2 that are singular at d = 0 (Lancaster and Salkauskas, Math.
+ * Comp. 37, 1981). So coinciding points get what was remembered, and polynomials of degree 2 on
+ * planes are reproduced: degree 1 would lose a part of every maximum in every step. Results differ
+ * from the weighted mean by at most the scatter of the neighbours' values; where all neighbours lie
+ * on one side they are at most as large as the largest value and do not reverse. Zero without
  * neighbours. O(n).
  */
 template <int dim>

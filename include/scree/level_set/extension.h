@@ -23,6 +23,12 @@ struct ExtensionOptions
    * beyond it move and interpolate du |du| further. Infinite: all nodes.
    */
   double band = std::numeric_limits<double>::infinity();
+  /**
+   * Linear: G at a known node is that of the affine function that fits the known nodes up to so
+   * many spacings away along the axes best (least squares); 0: differences. A jagged v, of which
+   * finite element fields have a little in cut cells, is not continued with wild gradients then.
+   */
+  int fit = 0;
 };
 
 /** What an extension did. */

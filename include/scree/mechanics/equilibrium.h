@@ -171,6 +171,7 @@ private:
   Matrix newton_matrix;   //!< K
   Vector loads;           //!< f
   Vector dead_loads;      //!< tractions, pressures and body forces in f
+  Vector start_forces;    //!< of the ghost penalty on the displacement at the start of a step
   Vector internal_forces; //!< A u of the last residual()
   Vector contact_forces;  //!< -R_contact of the last residual()
   Vector applied_forces;  //!< on rigid bodies at the last residual()

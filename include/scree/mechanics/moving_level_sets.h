@@ -59,10 +59,13 @@ struct BodyMotion
 {
   ExtendedIncrement<dim> increment;
   double                 largest_increment = 0.; //!< largest |du| at a node of its cells [L]
-  std::size_t            n_unconverged     = 0;  //!< nodes without a back-trace: should be 0
-  unsigned int           n_islands         = 0;  //!< pieces without material, which were removed
-  double                 contour_motion    = 0.; //!< by the reinitialisation [L]
-  bool                   is_reboxed        = false;
+  /** Largest |du . n| on the faces of the background box that clip it: material passes there [L].
+   */
+  double       face_increment = 0.;
+  std::size_t  n_unconverged  = 0;  //!< nodes without a back-trace: should be 0
+  unsigned int n_islands      = 0;  //!< pieces without material, which were removed
+  double       contour_motion = 0.; //!< by the reinitialisation [L]
+  bool         is_reboxed     = false;
 };
 
 /**

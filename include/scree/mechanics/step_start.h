@@ -32,6 +32,12 @@ public:
     dealii::Tensor<2, dim> gradient;     //!< F_n
   };
 
+  /** The fit: u_n at the owned unknowns [L]. */
+  const Vector &displacement() const
+  {
+    return fitted;
+  }
+
   /** By the fit. */
   Deformation deformation(const PointInCell<dim> &point) const;
 
@@ -70,6 +76,7 @@ private:
   const MaterialPoints<dim>      &own_points;
   const MovingGeometryParameters &parameters;
   std::vector<PointInCell<dim>>   locations;
+  Vector                          fitted;        //!< u_n at the owned unknowns
   std::vector<double>             displacements; //!< u_n, see values_by_cell()
   MaterialPoints<dim>             cloud;         //!< own points and neighbours
   /** From the cloud, if something needs it. */

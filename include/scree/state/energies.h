@@ -6,8 +6,7 @@ namespace scree
 struct Energies
 {
   double strain        = 0.; //!< stored by the laws
-  /** Stored in the ghost penalty; on a moving geometry spent, since the start. */
-  double ghost_penalty = 0.;
+  double ghost_penalty = 0.; //!< stored in the ghost penalty
   double boundary      = 0.; //!< stored in springs, Nitsche and penalty terms
   double contact       = 0.; //!< stored in the contact penalties
   double dissipation   = 0.; //!< by friction, since the start
@@ -18,13 +17,13 @@ struct Energies
   /** What a step's start and end can be compared in. */
   double stored() const
   {
-    return strain + boundary + contact;
+    return strain + ghost_penalty + boundary + contact;
   }
 
   /** external work and transfer minus all that was stored or dissipated */
   double balance_error() const
   {
-    return external_work + transfer - stored() - ghost_penalty - dissipation - plastic;
+    return external_work + transfer - stored() - dissipation - plastic;
   }
 
   template <class Archive>
