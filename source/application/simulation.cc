@@ -191,18 +191,7 @@ Simulation<dim>::run()
         log.line("  the step is tried again with "
                  + short_number(100. * step_control.step_fraction()) + "% of its length");
       }
-  require(results->flush(), directory,
-          "rows of history.csv or probes.csv could not be written to the last",
-          "make room on the disk and go on with scree --resume " + directory);
-  log.line("Wall time by part:");
-  for (const auto &[name, seconds] : timings.parts())
-    log.line("  " + name + ": " + short_number(seconds) + " s");
-  if (n_checkpoints > 0)
-    log.line("Checkpoints: " + std::to_string(n_checkpoints) + ", the last of "
-             + short_number(1e-6 * checkpoint_bytes) + " MB");
-  log.line("Finished in " + short_duration(wall.wall_time()) + " with "
-           + std::to_string(step_control.n_rejected())
-           + " rejected step(s). Results: " + directory);
+  report_end(wall.wall_time());
 }
 
 template <int dim>

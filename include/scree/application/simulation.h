@@ -134,6 +134,7 @@ private:
   LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
                                           LinearSolver::Vector &du);
   void                report_step(const double wall_time);
+  void                report_end(const double wall_time);
   [[noreturn]] void   throw_slides_away(const unsigned int body) const;
   std::vector<double> contact_force_on_bodies() const;
   /** Whether the contact force on a body vanished in the course of the Newton iterations. */
