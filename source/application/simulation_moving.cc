@@ -114,9 +114,10 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto               ghosted  = equilibrium->with_ghosts(state.displacement);
-  const ContactMemory<dim> memory   = remember(*contact, communicator);
-  const Energies           energies = equilibrium->energies();
+  const auto               ghosted       = equilibrium->with_ghosts(state.displacement);
+  const ContactMemory<dim> memory        = remember(*contact, communicator);
+  const Energies           energies      = equilibrium->energies();
+  const auto               old_summaries = summarise_contact(*contact, communicator);
   std::vector<double>      multipliers;
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     multipliers.push_back(ghosted(fields->multiplier(i)));
@@ -147,9 +148,11 @@ Simulation<dim>::move_geometry()
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step(memory, multipliers, energies);
-  record.volumes   = bulk->volumes();
-  record.points    = state.points.totals(bodies.size(), communicator);
-  record.transfers = transferred_forces(*contact, memory, state.contact, communicator);
+  record.volumes       = bulk->volumes();
+  record.points        = state.points.totals(bodies.size(), communicator);
+  const auto summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < summaries.size(); ++p)
+    record.force_jumps.push_back(summaries[p].force - old_summaries[p].force);
   results->gather_motion(record);
 }
 
