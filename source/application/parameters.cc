@@ -57,13 +57,6 @@ Parameters<dim>::declare(ParameterFile &file)
                        "dimension.");
 
   materials = declare_materials(root);
-  // The geometry stays in its initial configuration.
-  for (const auto &[name, material] : materials)
-    if (needs_moving_geometry(material.law))
-      root.subsection("Materials", "")
-        .subsection(name, "")
-        .error("Law", "the law needs a geometry that moves with the bodies, and here it is fixed",
-               "choose linear elastic");
   std::vector<std::string> material_names, body_names;
   for (const auto &entry : materials)
     material_names.push_back(entry.first);

@@ -114,8 +114,9 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto ghosted = equilibrium->with_ghosts(state.displacement);
-  state.step_end     = {remember(*contact, communicator), {}, equilibrium->energies()};
+  const auto ghosted       = equilibrium->with_ghosts(state.displacement);
+  const auto old_summaries = summarise_contact(*contact, communicator);
+  state.step_end           = {remember(*contact, communicator), {}, equilibrium->energies()};
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     state.step_end.multipliers.push_back(ghosted(fields->multiplier(i)));
   predictor.of_rigid.resize(bodies.size());
@@ -145,10 +146,11 @@ Simulation<dim>::move_geometry()
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step();
-  record.volumes = bulk->volumes();
-  record.points  = state.points.totals(bodies.size(), communicator);
-  record.transfers
-    = transferred_forces(*contact, state.step_end.contact, state.contact, communicator);
+  record.volumes       = bulk->volumes();
+  record.points        = state.points.totals(bodies.size(), communicator);
+  const auto summaries = summarise_contact(*contact, communicator);
+  for (unsigned int p = 0; p < summaries.size(); ++p)
+    record.force_jumps.push_back(summaries[p].force - old_summaries[p].force);
   results->gather_motion(record);
 }
 

@@ -73,12 +73,18 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   accepted_dead_loads = dead_loads;
   accepted_u          = u;
 
+  // The work of the tangential tractions by the trapezoidal rule that is not stored in them.
   double dissipated = 0.;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
+      const auto &point    = contact.points()[i];
       const auto &response = contact.responses()[i];
-      dissipated += 0.5 * contact.points()[i].weight
-                    * (old_history.tau[i].norm() + response.tau.norm()) * response.slip;
+      const auto &old_tau  = old_history.tau[i];
+      auto        slip     = contact.jumps()[i] - old_history.jump[i];
+      slip -= (slip * point.normal) * point.normal;
+      dissipated -= 0.5 * point.weight
+                    * ((old_tau + response.tau) * slip
+                       + (response.tau.norm_square() - old_tau.norm_square()) / contact.eps_t(i));
     }
   energies.dissipation += dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
   store_energies(with_ghost_values);

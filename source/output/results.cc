@@ -189,12 +189,9 @@ Results<dim>::gather_motion(const MotionRecord<dim> &motion)
       for (const double value : {motion.volumes[b], motion.points[b].volume, motion.points[b].mass,
                                  double(motion.points[b].count)})
         history_row.push_back(value);
-  for (const TransferredForce<dim> &transfer : motion.transfers)
-    {
-      const auto jump = transfer.total_after - transfer.total_before;
-      for (unsigned int d = 0; d < dim; ++d)
-        history_row.push_back(jump[d]);
-    }
+  for (const dealii::Tensor<1, dim> &jump : motion.force_jumps)
+    for (unsigned int d = 0; d < dim; ++d)
+      history_row.push_back(jump[d]);
   history_row.push_back(motion.n_islands);
   history_row.push_back(motion.transfer_report.widened + motion.transfer_report.lowered);
 }

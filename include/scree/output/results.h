@@ -1,6 +1,5 @@
 #pragma once
 
-#include <scree/contact/contact_memory.h>
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
@@ -31,11 +30,12 @@ struct StepRecord
 template <int dim>
 struct MotionRecord
 {
-  std::vector<double>                volumes;   //!< of all bodies by their level sets [L^dim]
-  std::vector<PointTotals<dim>>      points;    //!< of all bodies
-  std::vector<TransferredForce<dim>> transfers; //!< of all pairs
-  MovingLeastSquaresReport           transfer_report;
-  unsigned int                       n_islands = 0;
+  std::vector<double>           volumes; //!< of all bodies by their level sets [L^dim]
+  std::vector<PointTotals<dim>> points;  //!< of all bodies
+  /** By how much the contact force of each pair changed when its points were found anew. */
+  std::vector<dealii::Tensor<1, dim>> force_jumps;
+  MovingLeastSquaresReport            transfer_report;
+  unsigned int                        n_islands = 0;
 };
 
 /** What was written so far: a run that is resumed goes on after it. */
