@@ -420,10 +420,13 @@ Simulation<dim>::write_results()
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
   results->gather_history(record, *equilibrium, *contact, *bulk, state.displacement);
   results->write_probes(record, *bulk, ghosted);
+  bool is_written = true;
   if (is_due(output.fields_every))
-    results->write_fields(record, *bulk, ghosted);
+    is_written &= results->write_fields(record, *bulk, ghosted);
   if (is_due(output.contact_every))
-    results->write_contact(record, *contact);
+    is_written &= results->write_contact(record, *contact);
+  if (!is_written)
+    log.line("Warning: pictures of this step cannot be written (is the disk full?)");
 }
 
 template <int dim>

@@ -1,10 +1,9 @@
 #include <scree/output/results.h>
+#include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-
-#include <fstream>
 
 namespace scree
 {
@@ -209,12 +208,12 @@ Results<dim>::write_history()
 }
 
 template <int dim>
-void
+bool
 Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
-  body_records.emplace_back(record.time,
-                            body_output->write(bulk, ghosted_u, directory, record.step));
-  write_pvd("bodies.pvd", body_records);
+  bool is_written
+    = add_picture(record.time, body_output->write(bulk, ghosted_u, directory, record.step),
+                  "bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {
@@ -226,18 +225,20 @@ Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, cons
                        sample_columns<dim>());
         for (const auto &row : rows)
           table.add_row(row);
+        is_written &= table.flush();
       }
+  return is_written;
 }
 
 template <int dim>
-void
+bool
 Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &contact)
 {
   const MPI_Comm communicator = fields->grid.communicator();
-  write_contact_csv(contact, communicator, directory, record.step);
-  contact_records.emplace_back(record.time,
-                               write_contact_vtu(contact, communicator, directory, record.step));
-  write_pvd("contact.pvd", contact_records);
+  const bool     is_written   = write_contact_csv(contact, communicator, directory, record.step);
+  return add_picture(record.time, write_contact_vtu(contact, communicator, directory, record.step),
+                     "contact.pvd", contact_records)
+         && is_written;
 }
 
 template <int dim>
@@ -305,14 +306,24 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
 }
 
 template <int dim>
-void
+bool
+Results<dim>::add_picture(const double time, const std::string &file, const std::string &pvd,
+                          std::vector<std::pair<double, std::string>> &records) const
+{
+  if (file.empty())
+    return false;
+  records.emplace_back(time, file);
+  return write_pvd(pvd, records);
+}
+
+template <int dim>
+bool
 Results<dim>::write_pvd(const std::string                                 &name,
                         const std::vector<std::pair<double, std::string>> &records) const
 {
-  if (!is_first)
-    return;
-  std::ofstream file(directory + "/" + name);
-  dealii::DataOutBase::write_pvd_record(file, records);
+  return !is_first || write_file(directory + "/" + name, [&](std::ofstream &file) {
+    dealii::DataOutBase::write_pvd_record(file, records);
+  });
 }
 
 template <int dim>

@@ -84,11 +84,11 @@ public:
   /** Writes the gathered row. */
   void write_history();
 
-  /** Body VTU and lines. */
-  void write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+  /** Body VTU and lines; whether all was written, known to the first process. */
+  bool write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 
-  /** Contact CSV and VTU. */
-  void write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
+  /** Contact CSV and VTU; whether all was written, known to the first process. */
+  bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
 
   /** Samples of a probe; throws UserError if its body has no cell at a point. */
   std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
@@ -116,9 +116,12 @@ private:
                                            const ContactPoints<dim> &contact) const;
   std::vector<std::string> probe_columns() const;
   std::vector<std::string> probe_table_columns() const;
-  void                     write_pvd(const std::string                                 &name,
-                                     const std::vector<std::pair<double, std::string>> &records) const;
-  unsigned int             body_index(const std::string &name) const;
+  /** Adds a file to a PVD record; false if the file, empty, or the record was not written. */
+  bool         add_picture(const double time, const std::string &file, const std::string &pvd,
+                           std::vector<std::pair<double, std::string>> &records) const;
+  bool         write_pvd(const std::string                                 &name,
+                         const std::vector<std::pair<double, std::string>> &records) const;
+  unsigned int body_index(const std::string &name) const;
 
   std::string                                 directory;
   const std::vector<Body<dim>>               &bodies;
