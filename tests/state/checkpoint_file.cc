@@ -65,7 +65,8 @@ protected:
 TEST_F(CheckpointFile, WhatIsWrittenComesBackAndTheOneBeforeIsKept)
 {
   const std::string first("one\0two", 7), second(1000, 'x');
-  EXPECT_EQ(write_checkpoint_file(directory, 2, first), bytes().size());
+  const std::size_t n_bytes = write_checkpoint_file(directory, 2, first);
+  EXPECT_EQ(bytes().size(), n_bytes);
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, first);
   write_checkpoint_file(directory, 2, second);
   const auto newest = read_checkpoint_file(directory, 2);
