@@ -1,6 +1,7 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/bodies/rigid_placement.h>
+#include <scree/state/gather.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -90,7 +91,11 @@ Simulation<dim>::collect() const
   result.warned_pairs = warned_pairs;
   if (is_moving())
     {
-      result.moving.points    = dealii::Utilities::MPI::gather(communicator, state.points);
+      std::vector<double> points;
+      points.reserve(state.points.size() * state.points.n_values());
+      for (std::size_t i = 0; i < state.points.size(); ++i)
+        state.points.pack(i, points);
+      result.moving.points    = gather_arrays(points, communicator);
       result.moving.step_end  = state.step_end;
       result.moving.predictor = predictor;
       for (const Body<dim> &body : bodies)
@@ -188,8 +193,8 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
   state.points = MaterialPoints<dim>(state.points.n_internal());
   for (unsigned int p = 0; p < saved.points.size(); ++p)
     if (p * n_here / saved.points.size() == rank)
-      for (std::size_t i = 0; i < saved.points[p].size(); ++i)
-        state.points.add_copy(saved.points[p], i);
+      for (std::size_t i = 0; i < saved.points[p].size(); i += state.points.n_values())
+        state.points.unpack(&saved.points[p][i]);
   state.step_end = saved.step_end;
   predictor      = saved.predictor;
   for (unsigned int b = 0; b < bodies.size(); ++b)

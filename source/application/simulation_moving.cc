@@ -114,9 +114,11 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto ghosted       = equilibrium->with_ghosts(state.displacement);
-  const auto old_summaries = summarise_contact(*contact, communicator);
-  state.step_end           = {remember(*contact, communicator), {}, equilibrium->energies()};
+  const auto ghosted = equilibrium->with_ghosts(state.displacement);
+  state.step_end     = {remember(*contact, communicator),
+                        {},
+                        equilibrium->energies(),
+                        equilibrium->driving_forces()};
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     state.step_end.multipliers.push_back(ghosted(fields->multiplier(i)));
   predictor.of_rigid.resize(bodies.size());
@@ -146,11 +148,11 @@ Simulation<dim>::move_geometry()
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step();
-  record.volumes       = bulk->volumes();
-  record.points        = state.points.totals(bodies.size(), communicator);
-  const auto summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < summaries.size(); ++p)
-    record.force_jumps.push_back(summaries[p].force - old_summaries[p].force);
+  record.volumes = bulk->volumes();
+  record.points  = state.points.totals(bodies.size(), communicator);
+  for (const auto &force :
+       transferred_forces(*contact, state.step_end.contact, state.contact, communicator))
+    record.force_jumps.push_back(force.tangential_after - force.tangential_before);
   results->gather_motion(record);
 }
 
@@ -170,7 +172,8 @@ Simulation<dim>::start_step()
       state.displacement(fields->multiplier(i)) = end.multipliers[i];
   state.displacement.compress(dealii::VectorOperation::insert);
   state.contact = recall(*contact, end.contact);
-  equilibrium->start_step(state.time, state.displacement, state.contact, end.energies);
+  equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
+                          end.driving_forces);
 }
 
 template <int dim>

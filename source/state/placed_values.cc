@@ -1,6 +1,5 @@
+#include <scree/state/gather.h>
 #include <scree/state/placed_values.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,14 +41,12 @@ template <int dim>
 void
 PlacedValues<dim>::gather(const MPI_Comm communicator)
 {
-  const auto          pieces = dealii::Utilities::MPI::gather(communicator, *this);
   std::vector<Place>  all_places;
   std::vector<double> all_values;
-  for (const PlacedValues &piece : pieces)
-    {
-      all_places.insert(all_places.end(), piece.places.begin(), piece.places.end());
-      all_values.insert(all_values.end(), piece.values.begin(), piece.values.end());
-    }
+  for (const auto &of_process : gather_arrays(places, communicator))
+    all_places.insert(all_places.end(), of_process.begin(), of_process.end());
+  for (const auto &of_process : gather_arrays(values, communicator))
+    all_values.insert(all_values.end(), of_process.begin(), of_process.end());
   std::vector<std::size_t> order(all_places.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](const std::size_t i, const std::size_t j) {

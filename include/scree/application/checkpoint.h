@@ -66,7 +66,7 @@ struct FixedState
 template <int dim>
 struct MovingState
 {
-  std::vector<MaterialPoints<dim>> points; //!< of each process
+  std::vector<std::vector<double>> points; //!< of each process, see MaterialPoints::pack()
   std::vector<BodyPlace<dim>>      bodies;
   StepEnd<dim>                     step_end;
   Predictor<dim>                   predictor;

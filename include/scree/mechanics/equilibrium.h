@@ -32,11 +32,19 @@ public:
 
   /**
    * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
-   * and multipliers. `energies` are those at the end of the step before: what the motion of the
-   * geometry changed in them is Energies::transfer.
+   * and multipliers.
+   *
+   * @param energies       at the end of the step before: what the motion of the geometry
+   *                       changed in them is Energies::transfer
+   * @param driving_forces there, see driving_forces(); empty at the start of a run. The work of
+   *                       rigid bodies goes on from them: the forces at u = 0 are those of new
+   *                       contact points that are not in equilibrium yet.
    */
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                  const Energies &energies);
+                  const Energies &energies, const std::vector<double> &driving_forces);
+
+  /** What drives the rigid bodies at the accepted state, component by component (collective). */
+  std::vector<double> driving_forces() const;
 
   /** Goes on after the accepted state `u` of a fixed geometry, with its time, history, energies. */
   void resume(const double time, const Vector &u, const ContactHistory<dim> &history,

@@ -13,11 +13,12 @@ struct StepEnd
   ContactMemory<dim>  contact;
   std::vector<double> multipliers;
   Energies            energies;
+  std::vector<double> driving_forces; //!< of rigid bodies, component by component
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &contact &multipliers &energies;
+    archive &contact &multipliers &energies &driving_forces;
   }
 };
 

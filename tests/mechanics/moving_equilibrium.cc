@@ -1,0 +1,330 @@
+// The equilibrium of a step on a moving geometry: the fit of the displacement, the stresses and
+// forces it leads to, and the tangent as the derivative of the residual.
+#include <gtest/gtest.h>
+
+#include <scree/points/seeding.h>
+
+#include <functional>
+#include <iostream>
+#include <random>
+
+#include "equilibrium_model.h"
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+using Vector = TrilinosWrappers::MPI::Vector;
+
+/** x - X as a function of the present position x. */
+template <int dim>
+using Displacement = std::function<Tensor<1, dim>(const Point<dim> &)>;
+
+/** Bodies at the start of a step, which material points brought there by a displacement. */
+template <int dim>
+struct StartedStep
+{
+  StartedStep(const std::string &text, const std::string &law,
+              const Displacement<dim> &displacement)
+      : input(text)
+      , cut(input.bodies)
+      , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
+      , points(moved(law, displacement))
+      , start(*cut.fields, cut.bodies, points, parameters)
+      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, &start)
+      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                input.contact.shift * cut.grid.finest_size())
+      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
+  {
+  }
+
+  MaterialPoints<dim> moved(const std::string &law, const Displacement<dim> &displacement)
+  {
+    MaterialParameters material;
+    material.law     = law;
+    material.young   = 1000.;
+    material.poisson = 0.3;
+    if (is_plastic(law))
+      {
+        material.yield_stress      = 20.;
+        material.hardening_modulus = 50.;
+      }
+    const std::shared_ptr<const IncrementLaw<dim>> shared = make_increment_law<dim>(material);
+    for (auto &body : cut.bodies)
+      if (!body.is_rigid())
+        body.law = shared;
+    const std::vector<double> density(cut.bodies.size(), 1.);
+    const unsigned int        n_internal
+      = StepStart<dim>::needs_internal(cut.bodies) ? StepStart<dim>::n_internal : 0;
+    MaterialPoints<dim> result
+      = PointSeeding<dim>(*cut.fields, *cut.level_set_nodes, cut.bodies, quadrature, density)
+          .on_sub_grid(cut.fields->basis.degree + 1, n_internal);
+    for (std::size_t p = 0; p < result.size(); ++p)
+      result.reference_position[p] = result.position[p] - displacement(result.position[p]);
+    return result;
+  }
+
+  std::vector<ContactPair> contact_pairs() const
+  {
+    std::vector<ContactPair> pairs;
+    for (const auto &[a, b] : cut.pairs)
+      pairs.push_back({a, b, "pair", input.contact.law_of("a", "b")});
+    return pairs;
+  }
+
+  /** Random increments of the given size at the nodes. */
+  Vector random(const double size, const unsigned int seed) const
+  {
+    Vector                                 u(cut.fields->owned(), MPI_COMM_WORLD);
+    std::mt19937                           engine(seed);
+    std::uniform_real_distribution<double> number(-size, size);
+    for (const DofIndex index : cut.fields->owned())
+      u(index) = cut.fields->hanging_constraints().is_constrained(index) ? 0. : number(engine);
+    u.compress(VectorOperation::insert);
+    equilibrium.strong_supports().set_zero(u);
+    return u;
+  }
+
+  EquilibriumInput<dim>    input;
+  CutBodies<dim>           cut;
+  MovingGeometryParameters parameters;
+  CutQuadrature<dim>       quadrature;
+  MaterialPoints<dim>      points;
+  StepStart<dim>           start;
+  Bulk<dim>                bulk;
+  BoundaryTerms<dim>       boundary_terms;
+  ContactPoints<dim>       contact;
+  Equilibrium<dim>         equilibrium;
+};
+
+/** A disc held by Nitsche's method on its left, under pressure on its right, on springs below. */
+std::string
+loaded_disc(const unsigned int degree, const std::string &more = "")
+{
+  return grid_text("-1.1, -1.1", "1.1, 1.1", "1, 1", 3, more) + degree_text(degree)
+         + bodies_text(
+           {{"disc",
+             ball_text("0.01, 0.02", 0.9)
+               + conditions_text(
+                 {{"hold", "set On = surface\nset Where = x < -0.4\nset Value = 0.01*x; 0.02*y"},
+                  {"press", "set Type = pressure\nset Where = x > 0.4\nset Value = 30*(1 + y)"},
+                  {"bed", "set Type = springs\nset Where = y < -0.4\nset Value = 100; 200"}})}})
+         + contact_text("set Law = frictionless");
+}
+
+/** Two bodies that overlap, with friction. */
+std::string
+pressed_bodies(const unsigned int degree, const std::string &more)
+{
+  return grid_text("-1, -1", "1, 1", "4, 4", 2, more) + degree_text(degree)
+         + bodies_text(
+           {{"block",
+             half_space_text("0, 0.013", "0.05, 1") + conditions_text({{"base", "set On = y-"}})},
+            {"disc", ball_text("0, 1.2", 1.2) + conditions_text({{"top", "set On = y+"}})}})
+         + contact_text("set Law = coulomb\nset Friction coefficient = 0.4");
+}
+
+Tensor<1, 2>
+wavy(const Point<2> &x)
+{
+  return Tensor<1, 2>({0.05 * std::sin(2. * x[1]) + 0.1 * x[0], 0.04 * x[0] * x[1] - 0.03 * x[1]});
+}
+
+/** Largest |dr + K v| / |K v| for central differences of r along random directions. */
+template <int dim>
+double
+tangent_error(StartedStep<dim> &step, const double size)
+{
+  auto                     &equilibrium = step.equilibrium;
+  const ContactHistory<dim> history     = step.contact.initial_history();
+  Vector                    u           = step.random(size, 1), r(u), plus(u), minus(u), product(u);
+  equilibrium.set_time(0., r);
+  equilibrium.residual(u, history, r);
+  TrilinosWrappers::SparseMatrix tangent;
+  tangent.copy_from(equilibrium.tangent());
+  double largest = 0.;
+  for (const unsigned int seed : {2u, 3u})
+    {
+      const double distance  = 1e-6;
+      const Vector direction = step.random(1., seed);
+      tangent.vmult(product, direction);
+      Vector shifted = u;
+      shifted.add(distance, direction);
+      equilibrium.residual(shifted, history, plus);
+      shifted.add(-2. * distance, direction);
+      equilibrium.residual(shifted, history, minus);
+      plus -= minus;
+      plus.add(2. * distance, product);
+      step.equilibrium.strong_supports().set_zero(plus);
+      largest = std::max(largest, plus.l2_norm() / (2. * distance * product.l2_norm()));
+    }
+  return largest;
+}
+} // namespace
+
+TEST(FitOfDisplacement, ReproducesPolynomialsOfTheDegree)
+{
+  for (const unsigned int degree : {1u, 2u})
+    for (const std::string &refinement : {std::string(), graded_text(1)})
+      {
+        const Displacement<2> polynomial = [&](const Point<2> &x) {
+          const double square = degree == 2 ? 0.07 * x[0] * x[0] - 0.03 * x[1] * x[1] : 0.;
+          return Tensor<1, 2>(
+            {0.1 + 0.3 * x[0] - 0.2 * x[1] + 0.05 * square, 0.4 * x[0] + 0.1 * x[1] - square});
+        };
+        StartedStep<2> step(loaded_disc(degree, refinement), "Hencky", polynomial);
+        double         largest = 0., largest_gradient = 0.;
+        for (std::size_t p = 0; p < step.points.size(); ++p)
+          {
+            const auto found = step.start.deformation(step.start.material_points()[p]);
+            largest          = std::max(largest,
+                                        (found.displacement - polynomial(step.points.position[p])).norm());
+            // F = (I - grad u)^{-1} by differences of the polynomial, exact for degree 2
+            Tensor<2, 2> inverse = Tensor<2, 2>(unit_symmetric_tensor<2>());
+            for (unsigned int j = 0; j < 2; ++j)
+              {
+                Tensor<1, 2> offset;
+                offset[j]        = 0.01;
+                const auto slope = (polynomial(step.points.position[p] + offset)
+                                    - polynomial(step.points.position[p] - offset))
+                                   / 0.02;
+                for (unsigned int i = 0; i < 2; ++i)
+                  inverse[i][j] -= slope[i];
+              }
+            largest_gradient
+              = std::max(largest_gradient, (found.gradient - invert(inverse)).norm());
+          }
+        std::cout << "degree " << degree << (refinement.empty() ? "" : ", graded")
+                  << ": error of the fit " << largest << ", of F " << largest_gradient << std::endl;
+        EXPECT_LT(largest, 1e-11);
+        EXPECT_LT(largest_gradient, 1e-9);
+      }
+}
+
+TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
+{
+  // A random field of the space, sampled at the points, comes back: steps without load find the
+  // displacement that the step before left.
+  for (const unsigned int degree : {1u, 2u})
+    {
+      StartedStep<2> plain(loaded_disc(degree), "Hencky",
+                           [](const Point<2> &) { return Tensor<1, 2>(); });
+      const Vector   field = plain.random(0.01, 7);
+      const Vector   ghosted(plain.equilibrium.with_ghosts(field));
+      auto           points = plain.points;
+      const auto     cells  = locate_points(*plain.cut.fields, points);
+      for (std::size_t p = 0; p < points.size(); ++p)
+        points.reference_position[p]
+          -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;
+      const Vector fit = fit_displacement(*plain.cut.fields, points, cells);
+      const Vector fit_ghosted(plain.equilibrium.with_ghosts(fit));
+      double       error = 0., norm = 0.;
+      for (std::size_t p = 0; p < points.size(); ++p)
+        {
+          const auto &[cell, unit_point] = cells[p];
+          const auto exact  = plain.bulk.sample(cell, unit_point, ghosted).displacement;
+          const auto fitted = plain.bulk.sample(cell, unit_point, fit_ghosted).displacement;
+          error += points.volume(p) * (fitted - exact).norm_square();
+          norm += points.volume(p) * exact.norm_square();
+        }
+      std::cout << "degree " << degree << ": random field of the space, relative L2 error "
+                << std::sqrt(error / norm) << std::endl;
+      EXPECT_LT(std::sqrt(error / norm), 2e-3);
+    }
+}
+
+TEST(MovingEquilibrium, TangentIsDerivativeOfResidual)
+{
+  for (const std::string &law : increment_laws())
+    for (const unsigned int degree : {1u, 2u})
+      {
+        StartedStep<2> disc(loaded_disc(degree), law, wavy);
+        // Plastic laws have kinks at the yield surface: far beyond it.
+        const double error = tangent_error(disc, is_plastic(law) ? 0.02 : 0.01);
+        std::cout << law << ", degree " << degree << ": error of the tangent " << error
+                  << std::endl;
+        EXPECT_LT(error, 2e-7);
+      }
+}
+
+TEST(MovingEquilibrium, TangentWithContactAndHangingNodes)
+{
+  for (const unsigned int degree : {1u, 2u})
+    {
+      StartedStep<2> step(pressed_bodies(degree, graded_text(1)), "neo-Hookean", wavy);
+      const double   error = tangent_error(step, 0.005);
+      std::cout << "degree " << degree << ": error of the tangent " << error << std::endl;
+      EXPECT_LT(error, 1e-6);
+    }
+}
+
+TEST(MovingEquilibrium, TangentInThreeDimensions)
+{
+  const std::string text
+    = grid_text("-1.1, -1.1, -1.1", "1.1, 1.1, 1.1", "1, 1, 1", 2) + degree_text(1)
+      + bodies_text(
+        {{"ball",
+          ball_text("0.01, 0.02, 0.03", 0.9)
+            + conditions_text(
+              {{"hold", "set On = surface\nset Where = x < -0.4\nset Value = 0.01*x; 0.02*y; 0"},
+               {"press", "set Type = pressure\nset Where = x > 0.4\nset Value = 30*(1 + y)"}})}})
+      + contact_text("set Law = frictionless");
+  for (const std::string law : {"neo-Hookean", "J2"})
+    {
+      StartedStep<3> ball(text, law, [](const Point<3> &x) {
+        return Tensor<1, 3>({0.1 * x[0] + 0.05 * x[1] * x[2], 0.05 * x[0], -0.04 * x[2]});
+      });
+      const double   error = tangent_error(ball, 0.02);
+      std::cout << law << ": error of the tangent " << error << std::endl;
+      EXPECT_LT(error, 2e-7);
+    }
+}
+
+TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
+{
+  const double          angle    = 0.7;
+  const Displacement<2> rotation = [&](const Point<2> &x) {
+    // x - R^T x
+    return Tensor<1, 2>({x[0] - std::cos(angle) * x[0] - std::sin(angle) * x[1],
+                         x[1] + std::sin(angle) * x[0] - std::cos(angle) * x[1]});
+  };
+  for (const std::string law : {"neo-Hookean", "Hencky", "Saint Venant-Kirchhoff", "J2"})
+    {
+      StartedStep<2> step(loaded_disc(2), law, rotation);
+      const Vector   zero(step.equilibrium.with_ghosts(zero_displacement(*step.cut.fields)));
+      double         largest = 0.;
+      for (const auto &point : step.start.material_points())
+        largest = std::max(
+          largest, step.bulk.sample(point.active_cell, point.unit_point, zero).stress.norm());
+      std::cout << law << ": largest stress over E " << largest / 1000. << ", energy "
+                << step.bulk.work(zero).energy << std::endl;
+      EXPECT_LT(largest / 1000., 1e-9);
+      EXPECT_LT(std::abs(step.bulk.work(zero).energy), 1e-9);
+    }
+}
+
+TEST(MovingEquilibrium, FormulasSeeReferencePositions)
+{
+  // The disc was moved by 0.3 to the right: its region x < -0.4 is now x < -0.1.
+  StartedStep<2> step(loaded_disc(1), "Hencky", [](const Point<2> &) {
+    return Tensor<1, 2>({0.3, 0.});
+  });
+  double         largest = -10., smallest_pressed = 10.;
+  for (const auto &region : step.boundary_terms.regions())
+    for (const auto &point : region.points)
+      {
+        if (region.condition->name == "hold")
+          largest = std::max(largest, point.position[0]);
+        if (region.condition->name == "press")
+          smallest_pressed = std::min(smallest_pressed, point.position[0]);
+        EXPECT_NEAR(point.area_ratio, 1., 1e-9);
+        EXPECT_NEAR(point.start_displacement[0], 0.3, 1e-10);
+      }
+  EXPECT_NEAR(largest, -0.1, 0.2);
+  EXPECT_LT(largest, -0.1);
+  EXPECT_NEAR(smallest_pressed, 0.7, 0.2);
+  EXPECT_GT(smallest_pressed, 0.7);
+}
+} // namespace scree
