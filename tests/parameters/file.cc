@@ -467,3 +467,21 @@ TEST(Parameters, DocumentationOfSectionsInSectionsOfTheirKindEnds)
   visit(file.root().subsection("Shape", ""));
   EXPECT_EQ(n, 2u);
 }
+
+TEST(Parameters, ValuesByPathAreTheResolvedOnes)
+{
+  ParameterFile file
+    = ParameterFile::from_string("set Size = 2\nsubsection Inner\n  set Name = a\nend");
+  file.override_value("Inner/Name=b");
+  double           size = 1., other = 3.;
+  std::string      name;
+  ParameterSection root = file.root();
+  root.entry("Size", size, "");
+  root.entry("Other", other, "");
+  root.subsection("Inner", "").entry("Name", name, "");
+  const auto values = file.values();
+  EXPECT_EQ(values.size(), 3u);
+  EXPECT_EQ(values.at("Size"), "2");
+  EXPECT_EQ(values.at("Other"), "3");
+  EXPECT_EQ(values.at("Inner/Name"), "b");
+}
