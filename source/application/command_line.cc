@@ -28,6 +28,9 @@ const char *const usage =
 
   scree FILE.prm [--set Section/Subsection/Key=value ...] [--output DIR]
       runs the problem; results go to DIR (default: results/FILE)
+  scree --resume DIR [--set ...]
+      goes on with the run in DIR after its last checkpoint, on any number of processes; may change
+      Title, Time, Solver and Output (but its probes)
   scree --check FILE.prm [--set ...] [--output DIR]
       says what is wrong with the input and writes what was set up, computes nothing
   scree --parameters [FILE.md]
@@ -43,6 +46,7 @@ struct Arguments
 {
   std::string              file;
   std::string              output;
+  std::string              resumed; // directory
   std::vector<std::string> overrides;
   bool                     check = false, parameters = false, version = false, help = false;
 };
@@ -68,6 +72,8 @@ parse(const int argc, char **argv)
         result.parameters = true;
       else if (word == "--set")
         result.overrides.push_back(value_of_option(i));
+      else if (word == "--resume")
+        result.resumed = value_of_option(i);
       else if (word == "--output")
         result.output = value_of_option(i);
       else if (word.rfind("--", 0) == 0)
@@ -79,7 +85,13 @@ parse(const int argc, char **argv)
           result.file = word;
         }
     }
-  require(result.help || result.version || result.parameters || !result.file.empty(),
+  require(
+    result.resumed.empty() || (result.file.empty() && result.output.empty() && !result.check),
+    "command line",
+    "--resume takes the parameters of its directory and writes there: it goes with --set only",
+    usage);
+  require(result.help || result.version || result.parameters || !result.file.empty()
+            || !result.resumed.empty(),
           "command line", "no parameter file is given", usage);
   return result;
 }
@@ -123,7 +135,23 @@ prepare_directory(const std::string &directory, const bool is_first)
   for (const std::string name : {"history.csv", "study.csv", "cycle-0"})
     require(!std::filesystem::exists(directory + "/" + name), "--output " + directory,
             "the directory already holds results (" + name + ")",
-            "remove them or choose another directory: nothing is overwritten");
+            "remove them, choose another directory, or go on with scree --resume " + directory
+              + ": nothing is overwritten");
+}
+
+/** Writes the resolved parameters; the file that is there stays until the new one is complete. */
+void
+write_parameters(const ParameterFile &file, const std::string &directory)
+{
+  const std::string name = directory + "/parameters.prm", next = name + ".new";
+  std::ofstream     out(next);
+  file.write(out);
+  out.close();
+  std::error_code error;
+  if (out.good())
+    std::filesystem::rename(next, name, error);
+  require(out.good() && !error, name, "cannot be written",
+          "check the output directory and the disk");
 }
 
 template <int dim>
@@ -134,14 +162,12 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
   Parameters<dim> parameters;
   parameters.declare(file);
   file.check();
+  parameters.resolved = file.values();
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   prepare_directory(directory, is_first);
   MPI_Barrier(communicator);
   if (is_first)
-    {
-      std::ofstream resolved(directory + "/parameters.prm");
-      file.write(resolved);
-    }
+    write_parameters(file, directory);
   const auto run_or_check = [&](auto &&problem) {
     if (arguments.check)
       problem.check();
@@ -152,6 +178,25 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
     run_or_check(RefinementStudy<dim>(parameters, directory, communicator));
   else
     run_or_check(Simulation<dim>(parameters, directory, communicator));
+}
+
+template <int dim>
+void
+resume(ParameterFile &file, const std::string &directory, const MPI_Comm communicator)
+{
+  Parameters<dim> parameters;
+  parameters.declare(file);
+  file.check();
+  parameters.resolved = file.values();
+  require(parameters.study.n_cycles == 1, directory, "a refinement study cannot be resumed",
+          "start it anew in another directory; its finished cycles are in " + directory
+            + "/cycle-0 ...");
+  const auto checkpoint = Checkpoint<dim>::read(directory, communicator);
+  require_resumable(checkpoint.parameters, parameters.resolved);
+  Simulation<dim> simulation(parameters, directory, communicator, &checkpoint);
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    write_parameters(file, directory);
+  simulation.run();
 }
 
 void
@@ -168,18 +213,30 @@ execute(const Arguments &arguments, const MPI_Comm communicator)
         write_documentation(arguments.file);
       return;
     }
-  ParameterFile file = ParameterFile::read(arguments.file);
+  const bool    is_resumed = !arguments.resumed.empty();
+  ParameterFile file
+    = ParameterFile::read(is_resumed ? arguments.resumed + "/parameters.prm" : arguments.file);
   for (const std::string &override_text : arguments.overrides)
     file.override_value(override_text);
+  const unsigned int dimension = declare_dimension(file);
+  if (is_resumed)
+    {
+      if (dimension == 2)
+        resume<2>(file, arguments.resumed, communicator);
+      else
+        resume<3>(file, arguments.resumed, communicator);
+      return;
+    }
   const std::string directory
     = arguments.output.empty() ? "results/" + std::filesystem::path(arguments.file).stem().string()
                                    + (arguments.check ? "_check" : "")
                                : arguments.output;
-  if (declare_dimension(file) == 2)
+  if (dimension == 2)
     run<2>(file, arguments, directory, communicator);
   else
     run<3>(file, arguments, directory, communicator);
 }
+
 /** Whether all processes come here within 2 s; those that work on do not. */
 bool
 meet(const MPI_Comm communicator)

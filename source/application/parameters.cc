@@ -23,6 +23,11 @@ OutputParameters<dim>::declare(ParameterSection &section)
                 "The contact surface is written as CSV and VTU after every so many load steps; 0: "
                 "never.");
   section.entry("Log iterations", log_iterations, "Write a line per Newton iteration to the log.");
+  section.entry("Checkpoint minutes", checkpoint_minutes, dealii::Patterns::Double(0.),
+                "What scree --resume needs is written after a step that ends so many minutes of "
+                "wall time or more after the last time, and after the last step; 0: not by time.");
+  section.entry("Checkpoint every", checkpoint_every,
+                "It is also written after every so many load steps; 0: not by steps.");
   ParameterSection probe_section
     = section.subsection("Probes", "Points and lines where fields are tabulated.");
   for (auto &[name, subsection] : probe_section.named("Names", "Names of points and lines."))
@@ -114,6 +119,9 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");
   study.declare(study_section, grid);
+  if (study.n_cycles > 1 && study.strategy == StudyStrategy::adaptive && moving.is_moving)
+    study_section.error("Strategy", "the error estimate needs a geometry that stays",
+                        "set Strategy = uniform, or Moving geometry/Update = none");
 }
 
 template struct OutputParameters<2>;

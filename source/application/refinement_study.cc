@@ -59,6 +59,9 @@ RefinementStudy<dim>::RefinementStudy(const Parameters<dim> &parameters,
     , communicator(communicator)
     , log(communicator, output_directory + "/log.txt")
 {
+  // Cycles cannot be resumed: what came before them would be missing.
+  this->parameters.output.checkpoint_every   = 0;
+  this->parameters.output.checkpoint_minutes = 0.;
 }
 
 template <int dim>

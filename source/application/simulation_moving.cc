@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 // A run on a moving geometry: what happens between the load steps.
 namespace scree
@@ -114,13 +115,13 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto               ghosted        = equilibrium->with_ghosts(state.displacement);
-  const ContactMemory<dim> memory         = remember(*contact, communicator);
-  const Energies           energies       = equilibrium->energies();
-  const auto               driving_forces = equilibrium->driving_forces();
-  std::vector<double>      multipliers;
+  const auto ghosted = equilibrium->with_ghosts(state.displacement);
+  state.step_end     = {remember(*contact, communicator),
+                        {},
+                        equilibrium->energies(),
+                        equilibrium->driving_forces()};
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
-    multipliers.push_back(ghosted(fields->multiplier(i)));
+    state.step_end.multipliers.push_back(ghosted(fields->multiplier(i)));
   predictor.of_rigid.resize(bodies.size());
   MotionRecord<dim> record;
   record.transfer_report = step_start->transfer_report();
@@ -132,6 +133,11 @@ Simulation<dim>::move_geometry()
          move_level_sets(bodies, *fields, ghosted,
                          {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
       {
+        const unsigned int b = predictor.of_bodies.size();
+        require(motion.face_increment <= 1e-6 * grid->finest_size(), bodies[b].path,
+                "the body '" + bodies[b].name + "' moves by " + short_number(motion.face_increment)
+                  + " through a face of the background box, which does not move",
+                "hold the motion normal to that face, or let the body end inside the box");
         predictor.of_bodies.push_back(std::move(motion.increment));
         record.n_islands += motion.n_islands;
       }
@@ -147,19 +153,19 @@ Simulation<dim>::move_geometry()
   state.points = std::move(points_at_end);
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
-  start_step(memory, multipliers, energies, driving_forces);
+  start_step();
   record.volumes = bulk->volumes();
   record.points  = state.points.totals(bodies.size(), communicator);
-  for (const auto &force : transferred_forces(*contact, memory, state.contact, communicator))
+  require_no_loss(record.points);
+  for (const auto &force :
+       transferred_forces(*contact, state.step_end.contact, state.contact, communicator))
     record.force_jumps.push_back(force.tangential_after - force.tangential_before);
   results->gather_motion(record);
 }
 
 template <int dim>
 void
-Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
-                            const std::vector<double> &multipliers, const Energies &energies,
-                            const std::vector<double> &driving_forces)
+Simulation<dim>::start_step()
 {
   state.displacement = zero_displacement(*fields);
   for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -167,12 +173,29 @@ Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         if (fields->owned().is_element(fields->rigid_unknown(b) + m))
           state.displacement(fields->rigid_unknown(b) + m) = bodies[b].pose[m];
-  for (unsigned int i = 0; i < multipliers.size(); ++i)
+  const StepEnd<dim> &end = state.step_end;
+  for (unsigned int i = 0; i < end.multipliers.size(); ++i)
     if (fields->owned().is_element(fields->multiplier(i)))
-      state.displacement(fields->multiplier(i)) = multipliers[i];
+      state.displacement(fields->multiplier(i)) = end.multipliers[i];
   state.displacement.compress(dealii::VectorOperation::insert);
-  state.contact = recall(*contact, memory);
-  equilibrium->start_step(state.time, state.displacement, state.contact, energies, driving_forces);
+  state.contact = recall(*contact, end.contact);
+  equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
+                          end.driving_forces);
+}
+
+template <int dim>
+void
+Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &points)
+{
+  // Division of points raises their number and keeps their mass and initial volume.
+  for (unsigned int b = 0; b < points.size() && !points_before.empty(); ++b)
+    AssertThrow(points[b].count >= points_before[b].count
+                  && std::abs(points[b].mass - points_before[b].mass)
+                       <= 1e-12 * points_before[b].mass
+                  && std::abs(points[b].initial_volume - points_before[b].initial_volume)
+                       <= 1e-12 * points_before[b].initial_volume,
+                dealii::ExcMessage("material points of " + bodies[b].name + " were lost"));
+  points_before = points;
 }
 
 template <int dim>
@@ -209,17 +232,16 @@ Simulation<dim>::predicted(const double time) const
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                          \
-  template void                Simulation<dim>::set_up_points();                                                        \
-  template void                Simulation<dim>::seed_points();                                                          \
-  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                           \
-    const typename Equilibrium<dim>::Vector &) const;                                                                   \
-  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                        \
-    const;                                                                                                              \
-  template void                              Simulation<dim>::move_geometry();                                          \
-  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                    \
-                                                                         const std::vector<double> &, const Energies &, \
-                                                                         const std::vector<double> &);                  \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template void                Simulation<dim>::set_up_points();                                 \
+  template void                Simulation<dim>::seed_points();                                   \
+  template MaterialPoints<dim> Simulation<dim>::moved_points(                                    \
+    const typename Equilibrium<dim>::Vector &) const;                                            \
+  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &) \
+    const;                                                                                       \
+  template void Simulation<dim>::move_geometry();                                                \
+  template void Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &);         \
+  template void Simulation<dim>::start_step();                                                   \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

@@ -121,7 +121,7 @@ void
 Simulation<dim>::report_step(const double wall_time)
 {
   const double done = step_control.time() / parameters.time.end_time;
-  const double left = wall_time * (1. - done) / done;
+  const double left = wall_time * (1. - done) / (done - fraction_at_restart);
   double       open = 0., stick = 0., slip = 0.;
   for (const auto &summary : summarise_contact(*contact, communicator))
     {
@@ -135,6 +135,24 @@ Simulation<dim>::report_step(const double wall_time)
            + short_number(stick) + "/" + short_number(slip) + ", " + short_duration(wall_time)
            + ", left " + short_duration(left) + ", " + resident_memory());
   log.progress(done, "left " + short_duration(left));
+}
+
+template <int dim>
+void
+Simulation<dim>::report_end(const double wall_time)
+{
+  require(results->flush(), directory,
+          "rows of history.csv or probes.csv could not be written to the last",
+          "make room on the disk and go on with scree --resume " + directory);
+  log.line("Wall time by part:");
+  for (const auto &[name, seconds] : timings.parts())
+    log.line("  " + name + ": " + short_number(seconds) + " s");
+  if (n_checkpoints > 0)
+    log.line("Checkpoints: " + std::to_string(n_checkpoints) + ", the last of "
+             + short_number(1e-6 * checkpoint_bytes) + " MB");
+  log.line("Finished in " + short_duration(wall_time) + " with "
+           + std::to_string(step_control.n_rejected())
+           + " rejected step(s). Results: " + directory);
 }
 
 template <int dim>
@@ -203,6 +221,7 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   template void Simulation<dim>::check();                                     \
   template void Simulation<dim>::plot() const;                                \
   template void Simulation<dim>::report_step(const double);                   \
+  template void Simulation<dim>::report_end(const double);                    \
   template void Simulation<dim>::throw_slides_away(const unsigned int) const; \
   template void Simulation<dim>::count_flips();                               \
   template void Simulation<dim>::explain_failure(const NewtonResult &);

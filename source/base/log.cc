@@ -8,7 +8,7 @@
 
 namespace scree
 {
-Log::Log(const MPI_Comm communicator, const std::string &file_name)
+Log::Log(const MPI_Comm communicator, const std::string &file_name, const bool goes_on)
 {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -16,7 +16,7 @@ Log::Log(const MPI_Comm communicator, const std::string &file_name)
   // mpirun gives its processes a terminal for the standard output only.
   is_terminal = is_first && isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
   if (is_first && !file_name.empty())
-    file.open(file_name);
+    file.open(file_name, goes_on ? std::ios::app : std::ios::out);
 }
 
 void
@@ -27,7 +27,10 @@ Log::line(const std::string &text)
   erase_bar();
   std::cout << text << std::endl;
   if (file.is_open())
-    file << text << std::endl;
+    {
+      file.clear(); // a full disk may have room again
+      file << text << std::endl;
+    }
 }
 
 void

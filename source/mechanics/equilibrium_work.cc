@@ -124,26 +124,42 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
                              const Energies &energies, const std::vector<double> &driving_forces)
 {
   start_time = time;
-  Vector at_start(u), r(u);
-  set_time(time, at_start);
-  residual(at_start, history, r);
-  const Vector with_ghost_values = with_ghosts(at_start);
-  accepted_u                     = at_start;
-  accepted_dead_loads            = dead_loads;
-  reactions(accepted_reactions);
-  accepted_reactions += applied_forces;
+  take_as_accepted(time, u, history);
   for (unsigned int i = 0; i < driving_forces.size(); ++i)
     if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
       accepted_reactions(fields.n_dofs() - fields.n_trailing() + i) = driving_forces[i];
   accepted_reactions.compress(dealii::VectorOperation::insert);
+  current_energies = energies;
+  store_energies(with_ghosts(accepted_u));
+  current_energies.transfer += current_energies.stored() - energies.stored();
+}
+
+template <int dim>
+void
+Equilibrium<dim>::resume(const double time, const Vector &u, const ContactHistory<dim> &history,
+                         const Energies &energies)
+{
+  take_as_accepted(time, u, history);
+  current_energies = energies;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::take_as_accepted(const double time, const Vector &u,
+                                   const ContactHistory<dim> &history)
+{
+  Vector r(u);
+  accepted_u = u;
+  set_time(time, accepted_u);
+  residual(accepted_u, history, r);
+  accepted_dead_loads = dead_loads;
+  reactions(accepted_reactions);
+  accepted_reactions += applied_forces;
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     if (fields.owned().is_element(fields.multiplier(i)))
       accepted_prescribed(fields.multiplier(i)) = loads(fields.multiplier(i));
   accepted_prescribed.compress(dealii::VectorOperation::insert);
-  remember_conditions(with_ghost_values);
-  current_energies = energies;
-  store_energies(with_ghost_values);
-  current_energies.transfer += current_energies.stored() - energies.stored();
+  remember_conditions(with_ghosts(accepted_u));
 }
 
 template <int dim>
@@ -175,15 +191,19 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                      \
-  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);    \
-  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
-  template void   Equilibrium<dim>::store_energies(const Vector &);                           \
-  template void   Equilibrium<dim>::start_step(const double, const Vector &,                  \
-                                               const ContactHistory<dim> &, const Energies &, \
-                                               const std::vector<double> &);                  \
-  template std::vector<double> Equilibrium<dim>::driving_forces() const;                      \
+#define SCREE_INSTANTIATE(dim)                                                                          \
+  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                \
+  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);              \
+  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);                \
+  template void   Equilibrium<dim>::store_energies(const Vector &);                                     \
+  template void   Equilibrium<dim>::start_step(const double, const Vector &,                            \
+                                               const ContactHistory<dim> &, const Energies &,           \
+                                               const std::vector<double> &);                            \
+  template std::vector<double> Equilibrium<dim>::driving_forces() const;                                \
+  template void                Equilibrium<dim>::resume(const double, const Vector &,                   \
+                                                        const ContactHistory<dim> &, const Energies &); \
+  template void                Equilibrium<dim>::take_as_accepted(const double, const Vector &,         \
+                                                                  const ContactHistory<dim> &);         \
   template void                Equilibrium<dim>::remember_conditions(const Vector &);
 
 SCREE_INSTANTIATE(2)

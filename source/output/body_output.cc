@@ -1,4 +1,5 @@
 #include <scree/output/body_output.h>
+#include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace scree
 {
@@ -337,26 +337,8 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   dealii::DataOutBase::VtkFlags flags;
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
   output.set_flags(flags);
-  const MPI_Comm    communicator = fields.grid.communicator();
-  const std::string name         = "bodies_" + dealii::Utilities::int_to_string(number, 4);
-  if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
-    {
-      std::ofstream file(directory + "/" + name + ".vtu");
-      output.write_vtu(file);
-      return name + ".vtu";
-    }
-  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  std::ofstream      file(directory + "/" + name + "." + std::to_string(rank) + ".vtu");
-  output.write_vtu(file);
-  if (rank == 0)
-    {
-      std::vector<std::string> names;
-      for (unsigned int p = 0; p < dealii::Utilities::MPI::n_mpi_processes(communicator); ++p)
-        names.push_back(name + "." + std::to_string(p) + ".vtu");
-      std::ofstream record(directory + "/" + name + ".pvtu");
-      output.write_pvtu_record(record, names);
-    }
-  return name + ".pvtu";
+  return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
+                         fields.grid.communicator());
 }
 
 template class BodyOutput<2>;

@@ -1,5 +1,6 @@
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/output/contact_output.h>
+#include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 
@@ -129,30 +129,31 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
 }
 
 template <int dim>
-void
+bool
 write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                   const std::string &directory, const unsigned int number)
 {
   const auto gathered = dealii::Utilities::MPI::gather(communicator, contact_rows(contact));
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
-    return;
+    return true;
   std::vector<std::vector<double>> rows;
   for (const auto &of_process : gathered)
     rows.insert(rows.end(), of_process.begin(), of_process.end());
   std::sort(rows.begin(), rows.end());
-  std::ofstream file(directory + "/contact_" + dealii::Utilities::int_to_string(number, 4)
-                     + ".csv");
-  file << std::setprecision(12);
-  const auto names = contact_columns<dim>();
-  for (unsigned int c = 0; c < names.size(); ++c)
-    file << (c == 0 ? "" : ",") << names[c];
-  file << '\n';
-  for (const auto &row : rows)
-    for (unsigned int c = 0; c < row.size(); ++c)
-      if (c == 0)
-        file << contact.pairs()[static_cast<unsigned int>(row[0])].name;
-      else
-        file << ',' << row[c] << (c + 1 == row.size() ? "\n" : "");
+  const std::string name = directory + "/contact_" + dealii::Utilities::int_to_string(number, 4);
+  return write_file(name + ".csv", [&](std::ofstream &file) {
+    file << std::setprecision(12);
+    const auto names = contact_columns<dim>();
+    for (unsigned int c = 0; c < names.size(); ++c)
+      file << (c == 0 ? "" : ",") << names[c];
+    file << '\n';
+    for (const auto &row : rows)
+      for (unsigned int c = 0; c < row.size(); ++c)
+        if (c == 0)
+          file << contact.pairs()[static_cast<unsigned int>(row[0])].name;
+        else
+          file << ',' << row[c] << (c + 1 == row.size() ? "\n" : "");
+  });
 }
 
 namespace
@@ -212,23 +213,8 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
         patch.data(c, 0) = values[c];
       output.patches.push_back(patch);
     }
-  const std::string  name    = "contact_" + dealii::Utilities::int_to_string(number, 4);
-  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const std::string  piece   = name + (n_ranks == 1 ? "" : "." + std::to_string(rank)) + ".vtu";
-  std::ofstream      file(directory + "/" + piece);
-  output.write_vtu(file);
-  if (n_ranks == 1)
-    return piece;
-  if (rank == 0)
-    {
-      std::vector<std::string> names;
-      for (unsigned int p = 0; p < n_ranks; ++p)
-        names.push_back(name + "." + std::to_string(p) + ".vtu");
-      std::ofstream record(directory + "/" + name + ".pvtu");
-      output.write_pvtu_record(record, names);
-    }
-  return name + ".pvtu";
+  return write_vtu_files(output, directory,
+                         "contact_" + dealii::Utilities::int_to_string(number, 4), communicator);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
@@ -237,7 +223,7 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
   template std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &);              \
   template std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &,          \
                                                               const MPI_Comm);                     \
-  template void write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \
+  template bool write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \
                                   const unsigned int);                                             \
   template std::string write_contact_vtu(const ContactPoints<dim> &, const MPI_Comm,               \
                                          const std::string &, const unsigned int);

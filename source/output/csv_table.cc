@@ -3,27 +3,97 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
 #include <iomanip>
+#include <sstream>
+#include <unistd.h>
 
 namespace scree
 {
-CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> &columns)
-    : file(file_name)
-    , n_columns(columns.size())
+namespace
 {
-  require(file.good(), file_name, "cannot be written", "check the output directory and the disk");
+std::string
+header(const std::vector<std::string> &columns)
+{
+  std::string text;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    file << (i == 0 ? "" : ",") << columns[i];
-  file << std::endl;
+    text += (i == 0 ? "" : ",") + columns[i];
+  return text + "\n";
+}
+
+int
+opened(const std::string &file_name, const int mode)
+{
+  const int file = open(file_name.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | mode, 0666);
+  require(file >= 0, file_name, std::string("cannot be written: ") + std::strerror(errno),
+          "check the output directory and the disk");
+  return file;
+}
+} // namespace
+
+CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> &columns)
+    : file(opened(file_name, O_CREAT | O_TRUNC))
+    , n_columns(columns.size())
+    , pending(header(columns))
+{
+  flush();
+}
+
+CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> &columns,
+                   const std::size_t n_rows)
+    : file(opened(file_name, 0))
+    , n_columns(columns.size())
+    , row_count(n_rows)
+{
+  std::ifstream old(file_name);
+  std::string   line;
+  std::size_t   n_lines = 0, n_bytes = 0;
+  while (n_lines <= n_rows && std::getline(old, line) && !old.eof())
+    {
+      require(n_lines > 0 || line + "\n" == header(columns), file_name,
+              "has other columns than this run", "it was changed: start the run anew");
+      n_bytes += line.size() + 1;
+      ++n_lines;
+    }
+  require(n_lines == n_rows + 1, file_name,
+          "fewer than the " + std::to_string(n_rows) + " rows up to the checkpoint are left",
+          "it was changed: start the run anew");
+  require(ftruncate(file, n_bytes) == 0, file_name, "cannot be shortened", "check the disk");
+}
+
+CsvTable::~CsvTable()
+{
+  close(file);
 }
 
 void
 CsvTable::add_row(const std::vector<double> &values)
 {
   AssertDimension(values.size(), n_columns);
-  file << std::setprecision(12);
+  std::ostringstream row;
+  row << std::setprecision(12);
   for (std::size_t i = 0; i < values.size(); ++i)
-    file << (i == 0 ? "" : ",") << values[i];
-  file << std::endl;
+    row << (i == 0 ? "" : ",") << values[i];
+  row << '\n';
+  pending += row.str();
+  ++row_count;
+  flush();
+}
+
+bool
+CsvTable::flush()
+{
+  while (!pending.empty())
+    {
+      const ssize_t n = write(file, pending.data(), pending.size());
+      if (n > 0)
+        pending.erase(0, n);
+      else if (n == 0 || errno != EINTR)
+        return false;
+    }
+  return true;
 }
 } // namespace scree

@@ -1,4 +1,5 @@
 #include <scree/output/results.h>
+#include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -117,6 +118,15 @@ Results<dim>::probe_columns() const
 
 template <int dim>
 std::vector<std::string>
+Results<dim>::probe_table_columns() const
+{
+  std::vector<std::string> names = probe_columns();
+  names.insert(names.begin(), "time");
+  return names;
+}
+
+template <int dim>
+std::vector<std::string>
 Results<dim>::columns(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
 {
   std::vector<std::string>       names     = history_columns(equilibrium, contact);
@@ -198,12 +208,12 @@ Results<dim>::write_history()
 }
 
 template <int dim>
-void
+bool
 Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
-  body_records.emplace_back(record.time,
-                            body_output->write(bulk, ghosted_u, directory, record.step));
-  write_pvd("bodies.pvd", body_records);
+  bool is_written
+    = add_picture(record.time, body_output->write(bulk, ghosted_u, directory, record.step),
+                  "bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {
@@ -215,18 +225,20 @@ Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, cons
                        sample_columns<dim>());
         for (const auto &row : rows)
           table.add_row(row);
+        is_written &= table.flush();
       }
+  return is_written;
 }
 
 template <int dim>
-void
+bool
 Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &contact)
 {
   const MPI_Comm communicator = fields->grid.communicator();
-  write_contact_csv(contact, communicator, directory, record.step);
-  contact_records.emplace_back(record.time,
-                               write_contact_vtu(contact, communicator, directory, record.step));
-  write_pvd("contact.pvd", contact_records);
+  const bool     is_written   = write_contact_csv(contact, communicator, directory, record.step);
+  return add_picture(record.time, write_contact_vtu(contact, communicator, directory, record.step),
+                     "contact.pvd", contact_records)
+         && is_written;
 }
 
 template <int dim>
@@ -234,7 +246,16 @@ std::vector<std::vector<double>>
 Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Bulk<dim> &bulk,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u);
+  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u,
+                bulk.step_start() == nullptr);
+}
+
+template <int dim>
+void
+Results<dim>::require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const
+{
+  for (const auto &probe : probes)
+    sample(probe, body_index(probe.body), *fields, bulk, ghosted_u, true);
 }
 
 template <int dim>
@@ -251,25 +272,67 @@ Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, cons
   if (!is_first || probe_row.empty())
     return;
   if (!probe_table)
-    {
-      std::vector<std::string> names = probe_columns();
-      names.insert(names.begin(), "time");
-      probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", names);
-    }
+    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns());
   std::vector<double> values = probe_row;
   values.insert(values.begin(), record.time);
   probe_table->add_row(values);
 }
 
 template <int dim>
+bool
+Results<dim>::flush()
+{
+  const bool history_is_written = !history || history->flush();
+  return (!probe_table || probe_table->flush()) && history_is_written;
+}
+
+template <int dim>
+ResultsRecord
+Results<dim>::record() const
+{
+  return {body_records, contact_records, history ? history->n_rows() : 0,
+          probe_table ? probe_table->n_rows() : 0};
+}
+
+template <int dim>
 void
+Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equilibrium,
+                     const ContactPoints<dim> &contact)
+{
+  body_records    = record.bodies;
+  contact_records = record.contact;
+  if (!is_first)
+    return;
+  history = std::make_unique<CsvTable>(
+    directory + "/history.csv", history_columns(equilibrium, contact), record.n_history_rows);
+  if (record.n_probe_rows > 0)
+    probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),
+                                             record.n_probe_rows);
+  if (!body_records.empty())
+    write_pvd("bodies.pvd", body_records);
+  if (!contact_records.empty())
+    write_pvd("contact.pvd", contact_records);
+}
+
+template <int dim>
+bool
+Results<dim>::add_picture(const double time, const std::string &file, const std::string &pvd,
+                          std::vector<std::pair<double, std::string>> &records) const
+{
+  if (file.empty())
+    return false;
+  records.emplace_back(time, file);
+  return write_pvd(pvd, records);
+}
+
+template <int dim>
+bool
 Results<dim>::write_pvd(const std::string                                 &name,
                         const std::vector<std::pair<double, std::string>> &records) const
 {
-  if (!is_first)
-    return;
-  std::ofstream file(directory + "/" + name);
-  dealii::DataOutBase::write_pvd_record(file, records);
+  return !is_first || write_file(directory + "/" + name, [&](std::ofstream &file) {
+    dealii::DataOutBase::write_pvd_record(file, records);
+  });
 }
 
 template <int dim>

@@ -38,6 +38,16 @@ write_section(std::ostream &out, const ParameterNode &node, const std::string &i
     }
 }
 
+void
+collect_values(const ParameterNode &node, std::map<std::string, std::string> &values)
+{
+  const std::string path = node.path().empty() ? "" : node.path() + "/";
+  for (const ParameterEntry *entry : node.declared_entries())
+    values[path + entry->key] = entry->value;
+  for (const ParameterNode *section : node.declared_sections())
+    collect_values(*section, values);
+}
+
 /** `text` on one line, with the signs escaped that mean something in a Markdown table. */
 std::string
 cell(const std::string &text)
@@ -86,6 +96,14 @@ void
 ParameterFile::write(std::ostream &out) const
 {
   write_section(out, tree->root, "");
+}
+
+std::map<std::string, std::string>
+ParameterFile::values() const
+{
+  std::map<std::string, std::string> result;
+  collect_values(tree->root, result);
+  return result;
 }
 
 void

@@ -1,8 +1,11 @@
+#include <scree/base/exceptions.h>
 #include <scree/solver/step_control.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace scree
 {
@@ -114,6 +117,31 @@ StepControl::reject()
     return false;
   length = step_ticks() / 2;
   return true;
+}
+
+StepControlRecord
+StepControl::record() const
+{
+  return {time(), time_of(length), easy_in_a_row, accepted, rejected};
+}
+
+void
+StepControl::resume(const StepControlRecord &record)
+{
+  const double tick_time = parameters.end_time / static_cast<double>(end_tick);
+  require(record.time <= parameters.end_time * (1. + 1e-12), "Time/End time",
+          "the run has passed this time: it is at " + std::to_string(record.time),
+          "choose a later end");
+  tick = std::llround(record.time / tick_time);
+  require(std::abs(time_of(tick) - record.time) <= 1e-12 * parameters.end_time, "Time/Steps",
+          "no step of length " + std::to_string(parameters.end_time / parameters.steps)
+            + " (End time/Steps), nor a part of one, begins at the time of the run, "
+            + std::to_string(record.time),
+          "change Steps together with End time, such that the length of a step remains");
+  length = std::clamp<std::int64_t>(std::llround(record.length / tick_time), 1, ticks_per_step);
+  easy_in_a_row = record.easy_in_a_row;
+  accepted      = record.accepted;
+  rejected      = record.rejected;
 }
 
 double

@@ -8,10 +8,12 @@
 #include <scree/output/probes.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <sys/resource.h>
 
 #include "../mechanics/equilibrium_model.h"
 
@@ -54,6 +56,54 @@ TEST(CsvTable, RowsAreWrittenAtOnce)
   table.add_row({1. / 3., 2e-30});
   EXPECT_EQ(content(directory.path + "/table.csv"), "a,b\n1,-0.125\n0.333333333333,2e-30\n");
   EXPECT_THROW(CsvTable("/nowhere/table.csv", {"a"}), UserError);
+}
+
+TEST(CsvTable, GoesOnAfterSomeRowsAndCutsTheRest)
+{
+  const Directory   directory;
+  const std::string name = directory.path + "/table.csv";
+  {
+    CsvTable table(name, {"a", "b"});
+    for (unsigned int i = 0; i < 3; ++i)
+      table.add_row({double(i), 0.5});
+    EXPECT_EQ(table.n_rows(), 3u);
+  }
+  std::ofstream(name, std::ios::app) << "3,0"; // killed while it wrote
+  {
+    CsvTable table(name, {"a", "b"}, 2);
+    EXPECT_EQ(content(name), "a,b\n0,0.5\n1,0.5\n");
+    table.add_row({7., 8.});
+    EXPECT_EQ(table.n_rows(), 3u);
+  }
+  EXPECT_EQ(content(name), "a,b\n0,0.5\n1,0.5\n7,8\n");
+  std::ofstream(name, std::ios::app) << "3,0";
+  EXPECT_THROW(CsvTable(name, {"a", "b"}, 4), UserError); // half a row is none
+  EXPECT_THROW(CsvTable(name, {"a", "c"}, 1), UserError);
+  EXPECT_THROW(CsvTable(directory.path + "/none.csv", {"a"}, 0), UserError);
+}
+
+TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)
+{
+  const Directory   directory;
+  const std::string name = directory.path + "/table.csv";
+  struct rlimit     old;
+  getrlimit(RLIMIT_FSIZE, &old);
+  struct rlimit small = old;
+  small.rlim_cur      = 10;
+  const auto handler  = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  CsvTable table(name, {"a", "b"});
+  table.add_row({1., 2.}); // 8 bytes so far
+  EXPECT_TRUE(table.flush());
+  table.add_row({3., 4.});
+  table.add_row({5., 6.});
+  EXPECT_FALSE(table.flush());
+  EXPECT_EQ(content(name).size(), 10u);
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  table.add_row({7., 8.});
+  EXPECT_TRUE(table.flush());
+  EXPECT_EQ(content(name), "a,b\n1,2\n3,4\n5,6\n7,8\n");
 }
 
 TEST(VonMises, PlaneStrainAndThreeDimensions)
@@ -138,7 +188,7 @@ TEST(Probes, UniaxialStrain)
   probe.end       = Point<2>(0.5, 0.75);
   probe.n_points  = 5;
   const auto u    = model.equilibrium.with_ghosts(model.state.displacement);
-  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u);
+  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u, true);
   ASSERT_EQ(rows.size(), 5u);
   const auto names  = sample_columns<2>();
   const auto column = [&](const std::string &name) {
@@ -157,7 +207,7 @@ TEST(Probes, UniaxialStrain)
       EXPECT_NEAR(rows[i][column("u_y")], -0.01 + eps_yy * (rows[i][1] - 1.), 1e-10);
     }
   probe.start = probe.end = Point<2>(0.5, -0.9);
-  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u), UserError);
+  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u, true), UserError);
 }
 
 TEST(BodyOutput, OnlyThePhysicalPartIsWritten)

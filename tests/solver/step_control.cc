@@ -6,6 +6,7 @@
 #include <scree/solver/step_control.h>
 
 #include <cmath>
+#include <vector>
 
 namespace scree
 {
@@ -128,6 +129,62 @@ TEST(TimeParameters, AreReadAndChecked)
       TimeParameters().declare(bad.root());
       EXPECT_THROW(bad.check(), UserError) << wrong;
     }
+}
+/** The times of the remaining steps, of which every fifth takes many iterations. */
+std::vector<double>
+remaining_times(StepControl &control)
+{
+  std::vector<double> times;
+  while (!control.finished())
+    {
+      if (times.size() % 5 == 4 && control.step_fraction() == 1.)
+        control.reject();
+      times.push_back(control.next_time());
+      control.accept(times.size() % 5 == 0 ? hard : easy);
+    }
+  return times;
+}
+
+TEST(StepControl, GoesOnFromItsRecord)
+{
+  const auto  parameters = times(0.7, 7, 1. / 64);
+  StepControl control(parameters);
+  for (unsigned int i = 0; i < 3; ++i)
+    control.reject();
+  for (unsigned int i = 0; i < 6; ++i)
+    control.accept(i == 4 ? hard : easy);
+  StepControl other(parameters);
+  other.resume(control.record());
+  EXPECT_EQ(other.time(), control.time());
+  EXPECT_EQ(other.n_accepted(), 6u);
+  EXPECT_EQ(other.n_rejected(), 3u);
+  EXPECT_EQ(remaining_times(other), remaining_times(control));
+  EXPECT_EQ(other.time(), 0.7);
+}
+
+TEST(StepControl, ParametersMayChangeBetweenRecordAndResumption)
+{
+  StepControl control(times(0.7, 7, 1. / 64));
+  while (!control.finished())
+    control.accept(easy);
+  StepControl longer(times(1.4, 14, 1. / 64));
+  longer.resume(control.record());
+  EXPECT_NEAR(longer.time(), 0.7, 1e-15);
+  EXPECT_NEAR(longer.next_time(), 0.8, 1e-15);
+  // After a failure with the smallest step, a smaller one may be allowed.
+  StepControl failed(times(0.7, 7, 0.5));
+  failed.accept(easy);
+  EXPECT_TRUE(failed.reject());
+  EXPECT_FALSE(failed.reject());
+  StepControl finer(times(0.7, 7, 1. / 64));
+  finer.resume(failed.record());
+  EXPECT_NEAR(finer.next_time(), 0.15, 1e-15);
+  EXPECT_TRUE(finer.reject());
+
+  StepControl other_steps(times(0.7, 5, 1.));
+  EXPECT_THROW(other_steps.resume(failed.record()), UserError);
+  StepControl over(times(0.05, 1, 1.));
+  EXPECT_THROW(over.resume(failed.record()), UserError);
 }
 } // namespace
 } // namespace scree

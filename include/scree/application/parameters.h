@@ -20,9 +20,11 @@ namespace scree
 template <int dim>
 struct OutputParameters
 {
-  unsigned int fields_every   = 1;     //!< VTU of the bodies, 0: never
-  unsigned int contact_every  = 1;     //!< CSV and VTU of contact, 0: never
-  bool         log_iterations = false; //!< a line in the log per Newton iteration
+  unsigned int fields_every       = 1;     //!< VTU of the bodies, 0: never
+  unsigned int contact_every      = 1;     //!< CSV and VTU of contact, 0: never
+  bool         log_iterations     = false; //!< a line in the log per Newton iteration
+  unsigned int checkpoint_every   = 10;    //!< steps, 0: not by steps
+  double       checkpoint_minutes = 10.;   //!< wall time, 0: not by time
   std::vector<ProbeParameters<dim>> probes;
 
   void declare(ParameterSection &section);
@@ -45,6 +47,7 @@ struct Parameters
   LinearSolverParameters                    linear_solver;
   OutputParameters<dim>                     output;
   StudyParameters<dim>                      study;
+  std::map<std::string, std::string>        resolved; //!< all entries, value by path
 
   /** Lets every module visit its section; problems are collected in the file. */
   void declare(ParameterFile &file);

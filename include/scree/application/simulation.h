@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/checkpoint.h>
 #include <scree/application/parameters.h>
 #include <scree/base/log.h>
 #include <scree/base/timings.h>
@@ -10,6 +11,8 @@
 #include <scree/output/body_output.h>
 #include <scree/output/results.h>
 
+#include <deal.II/base/timer.h>
+
 #include <memory>
 #include <set>
 #include <string>
@@ -17,15 +20,6 @@
 
 namespace scree
 {
-/** The last increment on a moving geometry, to begin the next iteration with. */
-template <int dim>
-struct Predictor
-{
-  std::vector<ExtendedIncrement<dim>>            of_bodies; //!< deformable ones, else empty
-  std::vector<typename RigidPose<dim>::Unknowns> of_rigid;
-  double                                         step_size = 0.; //!< 0: there is none
-};
-
 /** Estimate of the error of the displacement in the energy norm. */
 struct ErrorEstimate
 {
@@ -43,10 +37,11 @@ class Simulation
 public:
   /**
    * @param output_directory where results go; must exist
-   * @throws UserError if the set-up is impossible
+   * @param checkpoint       of the run in that directory, which goes on after it; null: a new run
+   * @throws UserError if the set-up is impossible, or the checkpoint belongs to something else
    */
   Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
-             const MPI_Comm communicator);
+             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint = nullptr);
 
   /** All load steps. @throws UserError if a step cannot be solved. */
   void run();
@@ -54,7 +49,7 @@ public:
   /** Reports what was set up and writes it for pictures; computes nothing. */
   void check();
 
-  /** Of the present state, by stress recovery; collective. */
+  /** Of the present state, by stress recovery; NaN on a moving geometry; collective. */
   ErrorEstimate estimate_error() const;
 
   /** Owned grid cells at which bodies were in contact at the end of some load step; collective. */
@@ -106,18 +101,28 @@ private:
    * start of the step. */
   void set_up_points();
   void seed_points();
-  /** Begins a step on the new geometry with what the end of the last one left. */
-  void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
-                  const Energies &energies, const std::vector<double> &driving_forces);
+  /** Begins a step on the new geometry, see State::step_end. */
+  void start_step();
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
+  /** Compares with the totals of the step before. */
+  void require_no_loss(const std::vector<PointTotals<dim>> &points);
   /** The material points after the increment, with the law's answers. */
   MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
   /** Why a converged increment is too large for the moving geometry; empty: it is not. */
   std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
   /** The start of the step plus the last increment, scaled to the step. */
   typename Equilibrium<dim>::Vector predicted(const double time) const;
-  void                              report_set_up();
+  // Checkpoints, simulation_checkpoint.cc.
+  /** Writes a checkpoint if one is due after an accepted step; a failure is told in the log. */
+  void            save_if_due();
+  Checkpoint<dim> collect() const;
+  FixedState<dim> collect_fixed() const;
+  /** Goes to the state of a checkpoint; the problem is set up. */
+  void resume(const Checkpoint<dim> &checkpoint);
+  void resume_moving(const MovingState<dim> &saved);
+  void resume_fixed(const FixedState<dim> &saved);
+  void report_set_up();
   /**
    * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
    * prediction, the one with the smallest residual.
@@ -131,6 +136,7 @@ private:
   LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
                                           LinearSolver::Vector &du);
   void                report_step(const double wall_time);
+  void                report_end(const double wall_time);
   [[noreturn]] void   throw_slides_away(const unsigned int body) const;
   std::vector<double> contact_force_on_bodies() const;
   /** Whether the contact force on a body vanished in the course of the Newton iterations. */
@@ -165,9 +171,14 @@ private:
   std::unique_ptr<CondensedSolver>     condensed_solver; //!< made when first needed
   std::unique_ptr<Results<dim>>        results;
   StepControl                          step_control;
+  double                               fraction_at_restart = 0.; //!< of the end time
+  dealii::Timer                        since_checkpoint;
+  unsigned int                         n_checkpoints    = 0;
+  std::size_t                          checkpoint_bytes = 0; //!< of the last one, on process 0
   State<dim>                           state;
   StepRecord                           record;         //!< of the step being solved
   typename Equilibrium<dim>::Vector    last_increment; //!< of the last step, per time
+  std::vector<PointTotals<dim>>        points_before;  //!< by body, at the end of the last step
   MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
   Predictor<dim>                       predictor;      //!< on a moving geometry
   std::vector<double> largest_contact_force;           //!< on each body in this step's iterations

@@ -10,8 +10,11 @@ namespace scree
 class Log
 {
 public:
-  /** @param file_name the file to write, empty: none */
-  Log(const MPI_Comm communicator, const std::string &file_name);
+  /**
+   * @param file_name the file to write, empty: none
+   * @param goes_on   whether it is appended to
+   */
+  Log(const MPI_Comm communicator, const std::string &file_name, const bool goes_on = false);
 
   /** A line. */
   void line(const std::string &text);

@@ -10,32 +10,6 @@
 
 namespace scree
 {
-/** Energies at a state and the work between states [force L]. */
-struct Energies
-{
-  double strain = 0.; //!< stored by the laws
-  double ghost_penalty
-    = 0.; //!< stored in the ghost penalty; moving geometry: spent, since the start
-  double boundary      = 0.; //!< stored in springs, Nitsche and penalty terms
-  double contact       = 0.; //!< stored in the contact penalties
-  double dissipation   = 0.; //!< by friction, since the start
-  double plastic       = 0.; //!< plastic dissipation, since the start
-  double external_work = 0.; //!< by the trapezoidal rule, since the start
-  double transfer      = 0.; //!< gained where the geometry moved between steps, since the start
-
-  /** What a step's start and end can be compared in. */
-  double stored() const
-  {
-    return strain + ghost_penalty + boundary + contact;
-  }
-
-  /** external work and transfer minus all that was stored or dissipated */
-  double balance_error() const
-  {
-    return external_work + transfer - stored() - dissipation - plastic;
-  }
-};
-
 /**
  * The discrete equilibrium r(u) = f(t) - A u - R(u) - R_contact(u) = 0 of all bodies and its
  * tangent K = A + dR/du + dR_contact/du. A is linear and assembled once; prescribed unknowns are
@@ -60,7 +34,8 @@ public:
    * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
    * and multipliers.
    *
-   * @param energies       at the end of the step before
+   * @param energies       at the end of the step before: what the motion of the geometry changed in
+   *                       them is Energies::transfer
    * @param driving_forces there, see driving_forces(); empty at the start of a run. The work of
    *                       rigid bodies goes on from them: the forces at u = 0 are those of new
    *                       contact points that are not in equilibrium yet.
@@ -70,6 +45,10 @@ public:
 
   /** What drives the rigid bodies at the accepted state, component by component (collective). */
   std::vector<double> driving_forces() const;
+
+  /** Goes on after the accepted state `u` of a fixed geometry, with its time, history, energies. */
+  void resume(const double time, const Vector &u, const ContactHistory<dim> &history,
+              const Energies &energies);
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
@@ -184,6 +163,7 @@ private:
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);
   void   remember_conditions(const Vector &with_ghost_values);
+  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
   void   store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;

@@ -22,10 +22,7 @@ public:
   BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
              const std::vector<Body<dim>> &bodies);
 
-  /**
-   * Writes DIR/bodies_NNNN.vtu or .pvtu and returns the name to put into a PVD record. `u` is
-   * ghosted.
-   */
+  /** Writes DIR/bodies_NNNN.vtu or .pvtu, see write_vtu_files(). `u` is ghosted. */
   std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
                     const std::string &directory, const unsigned int number) const;
 

@@ -35,14 +35,13 @@ std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &contact)
 /**
  * Writes DIR/contact_NNNN.csv with all contact points, sorted by pair and position: pair, position,
  * normal, weight, gap, pressure p, tangential traction, jump [[u]], status (0 open, 1 stick, 2
- * slip).
+ * slip). The first process writes; returns false there if it could not.
  */
 template <int dim>
-void write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+bool write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                        const std::string &directory, const unsigned int number);
 
-/** Writes the same as points to DIR/contact_NNNN.vtu or .pvtu; returns the name for a PVD record.
- */
+/** Writes the same as points to DIR/contact_NNNN.vtu or .pvtu, see write_vtu_files(). */
 template <int dim>
 std::string write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                               const std::string &directory, const unsigned int number);

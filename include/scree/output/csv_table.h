@@ -1,23 +1,48 @@
 #pragma once
 
-#include <fstream>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace scree
 {
-/** A CSV file with a fixed header that grows by rows; every row is flushed at once. */
+/**
+ * A CSV file with a fixed header that grows by rows; every row is written at once. What a full disk
+ * refuses is kept and tried again with the next row.
+ */
 class CsvTable
 {
 public:
-  /** Creates the file, replacing an older one; throws UserError if it cannot be written. */
+  /** Creates the file, replacing an older one; throws UserError if it cannot be opened. */
   CsvTable(const std::string &file_name, const std::vector<std::string> &columns);
+
+  /**
+   * Goes on with a table after its first `n_rows` rows; what follows is cut off.
+   * @throws UserError if it has other columns or fewer rows
+   */
+  CsvTable(const std::string &file_name, const std::vector<std::string> &columns,
+           const std::size_t n_rows);
+
+  CsvTable(const CsvTable &)            = delete;
+  CsvTable &operator=(const CsvTable &) = delete;
+  ~CsvTable();
 
   /** Appends a row with as many values as there are columns, 12 significant digits. */
   void add_row(const std::vector<double> &values);
 
+  /** Writes what is not written yet; returns whether nothing is left. */
+  bool flush();
+
+  /** Of all rows of the file. */
+  std::size_t n_rows() const
+  {
+    return row_count;
+  }
+
 private:
-  std::ofstream file;
-  std::size_t   n_columns;
+  int         file; //!< descriptor
+  std::size_t n_columns;
+  std::size_t row_count = 0;
+  std::string pending; //!< what is not written
 };
 } // namespace scree

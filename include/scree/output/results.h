@@ -5,6 +5,9 @@
 #include <scree/output/csv_table.h>
 #include <scree/output/probes.h>
 
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,6 +36,19 @@ struct MotionRecord
   std::vector<dealii::Tensor<1, dim>> force_jumps;
   MovingLeastSquaresReport            transfer_report;
   unsigned int                        n_islands = 0;
+};
+
+/** What was written so far: a run that is resumed goes on after it. */
+struct ResultsRecord
+{
+  std::vector<std::pair<double, std::string>> bodies, contact; //!< of the PVD records
+  std::size_t                                 n_history_rows = 0, n_probe_rows = 0;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &bodies &contact &n_history_rows &n_probe_rows;
+  }
 };
 
 /**
@@ -68,27 +84,46 @@ public:
   /** Writes the gathered row. */
   void write_history();
 
-  /** Body VTU and lines. */
-  void write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+  /** Body VTU and lines; whether all was written, known to the first process. */
+  bool write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 
-  /** Contact CSV and VTU. */
-  void write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
+  /** Contact CSV and VTU; whether all was written, known to the first process. */
+  bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
 
-  /** Samples of a probe; throws UserError if its body has no cell at a point. */
-  std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
-                                                const Bulk<dim>            &bulk,
-                                                const Vector               &ghosted_u) const;
+  /** Throws UserError if the body of a probe has no cell at one of its points. */
+  void require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const;
 
   /** Rows of the probes in probes.csv. */
   void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
 
+  /** Writes rows of tables that the disk refused before; whether nothing is left. */
+  bool flush();
+
+  /** What is in the files; known to the first process. */
+  ResultsRecord record() const;
+
+  /**
+   * Cuts tables and PVD records off after what is recorded.
+   * @throws UserError if the tables do not have it
+   */
+  void resume(const ResultsRecord &record, const Equilibrium<dim> &equilibrium,
+              const ContactPoints<dim> &contact);
+
 private:
-  std::vector<std::string> history_columns(const Equilibrium<dim>   &equilibrium,
-                                           const ContactPoints<dim> &contact) const;
-  std::vector<std::string> probe_columns() const;
-  void                     write_pvd(const std::string                                 &name,
-                                     const std::vector<std::pair<double, std::string>> &records) const;
-  unsigned int             body_index(const std::string &name) const;
+  /** Samples of a probe; on a moving geometry NaN where its body is no more. */
+  std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
+                                                const Bulk<dim>            &bulk,
+                                                const Vector               &ghosted_u) const;
+  std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
+                                                   const ContactPoints<dim> &contact) const;
+  std::vector<std::string>         probe_columns() const;
+  std::vector<std::string>         probe_table_columns() const;
+  /** Adds a file to a PVD record; false if the file, empty, or the record was not written. */
+  bool         add_picture(const double time, const std::string &file, const std::string &pvd,
+                           std::vector<std::pair<double, std::string>> &records) const;
+  bool         write_pvd(const std::string                                 &name,
+                         const std::vector<std::pair<double, std::string>> &records) const;
+  unsigned int body_index(const std::string &name) const;
 
   std::string                                 directory;
   const std::vector<Body<dim>>               &bodies;

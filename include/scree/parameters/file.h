@@ -3,6 +3,7 @@
 #include <scree/parameters/section.h>
 
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -61,6 +62,9 @@ public:
    * of its documentation. Reading the result gives identical values.
    */
   void write(std::ostream &out) const;
+
+  /** The values of all declared entries by path, "Bodies/block/Shape/Radius". */
+  std::map<std::string, std::string> values() const;
 
   /** Writes a Markdown table per section: entry, default, allowed values, meaning. */
   void write_markdown(std::ostream &out) const;

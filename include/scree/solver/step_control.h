@@ -25,6 +25,22 @@ struct TimeParameters
   void declare(const ParameterSection &section);
 };
 
+/** Where a StepControl is; holds for other lengths of nominal steps too. */
+struct StepControlRecord
+{
+  double       time          = 0.; //!< the present one [time]
+  double       length        = 0.; //!< wanted length of the next step [time]
+  unsigned int easy_in_a_row = 0;  //!< accepted easy steps since the length changed
+  unsigned int accepted      = 0;
+  unsigned int rejected      = 0;
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &time &length &easy_in_a_row &accepted &rejected;
+  }
+};
+
 /**
  * Chooses the load steps: nominal ones at first; a rejected step is halved and tried again; after
  * two easy steps the length is doubled, up to the nominal one. Every nominal time k T/n is met
@@ -72,6 +88,14 @@ public:
 
   /** The step failed: halves it. Returns false if it was already as small as allowed. */
   bool reject();
+
+  StepControlRecord record() const;
+
+  /**
+   * Goes on from there; parameters may differ from those of the control that was recorded.
+   * @throws UserError if no step of the present parameters may begin at its time
+   */
+  void resume(const StepControlRecord &record);
 
 private:
   double time_of(const std::int64_t tick) const;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace scree
+{
+/**
+ * The file format of checkpoints: a mark, the version of the format, the dimension, the size of the
+ * contents, the contents, and the CRC-32 of all that. Numbers are those of the machine: a
+ * checkpoint goes with its kind of processor.
+ *
+ * Writes `contents` to DIR/checkpoint.new, waits until it is on the disk, and renames it to
+ * DIR/checkpoint; the one before is kept as DIR/checkpoint.old, so that one of the two is complete
+ * at any moment. Returns the number of bytes of the file.
+ *
+ * @throws UserError if the file cannot be written; then the others are as they were
+ */
+std::size_t write_checkpoint_file(const std::string &directory, const unsigned int dimension,
+                                  const std::string &contents);
+
+/** What is read of the checkpoints of a directory. */
+struct CheckpointContents
+{
+  std::string contents;
+  std::string warning; //!< why an older one was taken; empty: it is the newest
+};
+
+/**
+ * Reads DIR/checkpoint, or DIR/checkpoint.old if that is missing or damaged. A damaged one is
+ * renamed to DIR/checkpoint.damaged.
+ *
+ * @throws UserError if there is none, none is undamaged, or it is of another format or dimension
+ */
+CheckpointContents read_checkpoint_file(const std::string &directory, const unsigned int dimension);
+} // namespace scree

@@ -1,0 +1,162 @@
+// The file of a checkpoint: what is written comes back, or is refused with its reason, or the one
+// before is taken.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/state/checkpoint_file.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace scree
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+class CheckpointFile : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    char name[] = "/tmp/scree_checkpoint_XXXXXX";
+    ASSERT_NE(mkdtemp(name), nullptr);
+    directory = name;
+  }
+  void TearDown() override
+  {
+    fs::remove_all(directory);
+  }
+
+  std::string bytes(const std::string &name = "checkpoint") const
+  {
+    std::ifstream      file(directory + "/" + name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  void put(const std::string &text, const std::string &name = "checkpoint") const
+  {
+    std::ofstream(directory + "/" + name, std::ios::binary) << text;
+  }
+  /** The message of the error that reading ends with. */
+  std::string error(const unsigned int dimension = 2) const
+  {
+    try
+      {
+        read_checkpoint_file(directory, dimension);
+      }
+    catch (const UserError &e)
+      {
+        return e.what();
+      }
+    return "";
+  }
+  void expect_error(const std::string &part) const
+  {
+    EXPECT_NE(error().find(part), std::string::npos) << error();
+  }
+
+  std::string directory;
+};
+
+TEST_F(CheckpointFile, WhatIsWrittenComesBackAndTheOneBeforeIsKept)
+{
+  const std::string first("one\0two", 7), second(1000, 'x');
+  const std::size_t n_bytes = write_checkpoint_file(directory, 2, first);
+  EXPECT_EQ(bytes().size(), n_bytes);
+  EXPECT_EQ(read_checkpoint_file(directory, 2).contents, first);
+  write_checkpoint_file(directory, 2, second);
+  const auto newest = read_checkpoint_file(directory, 2);
+  EXPECT_EQ(newest.contents, second);
+  EXPECT_EQ(newest.warning, "");
+  // As after a kill between the two renamings.
+  fs::remove(directory + "/checkpoint");
+  const auto older = read_checkpoint_file(directory, 2);
+  EXPECT_EQ(older.contents, first);
+  EXPECT_NE(older.warning.find("missing"), std::string::npos);
+}
+
+TEST_F(CheckpointFile, EveryDamagedByteIsFound)
+{
+  write_checkpoint_file(directory, 2, "contents");
+  const std::string good = bytes();
+  for (std::size_t i = 0; i < good.size(); ++i)
+    {
+      std::string bad = good;
+      bad[i] ^= 4;
+      put(bad);
+      EXPECT_NE(error(), "") << "byte " << i;
+    }
+  for (std::size_t n = 0; n < good.size(); ++n)
+    {
+      put(good.substr(0, n));
+      EXPECT_NE(error(), "") << n << " bytes";
+    }
+  put(good);
+  EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "contents");
+}
+
+TEST_F(CheckpointFile, ADamagedOneIsPutAsideForTheOneBefore)
+{
+  write_checkpoint_file(directory, 2, "first");
+  write_checkpoint_file(directory, 2, "second");
+  std::string bad = bytes();
+  bad[bad.size() / 2] ^= 1;
+  put(bad);
+  const auto read = read_checkpoint_file(directory, 2);
+  EXPECT_EQ(read.contents, "first");
+  EXPECT_NE(read.warning.find("checksum"), std::string::npos) << read.warning;
+  EXPECT_EQ(bytes("checkpoint.damaged"), bad);
+  EXPECT_FALSE(fs::exists(directory + "/checkpoint"));
+  // The next one does not push the good one out.
+  write_checkpoint_file(directory, 2, "third");
+  EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
+  fs::remove(directory + "/checkpoint");
+  EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "first");
+}
+
+TEST_F(CheckpointFile, ErrorsSayWhatIsWrong)
+{
+  expect_error("there is no checkpoint");
+  put("something else that is long enough to have a header");
+  expect_error("is not a checkpoint of scree");
+  write_checkpoint_file(directory, 3, "contents");
+  fs::remove(directory + "/checkpoint.old");
+  expect_error("3 dimensions");
+  write_checkpoint_file(directory, 2, "contents");
+  std::string other_format = bytes();
+  other_format[16]         = 99;
+  put(other_format);
+  expect_error("is of format 99");
+}
+
+TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
+{
+  if (!fs::exists("/dev/full"))
+    GTEST_SKIP() << "no /dev/full";
+  write_checkpoint_file(directory, 2, "first");
+  write_checkpoint_file(directory, 2, "second");
+  const std::string newest = bytes(), older = bytes("checkpoint.old");
+  fs::create_symlink("/dev/full", directory + "/checkpoint.new");
+  try
+    {
+      write_checkpoint_file(directory, 2, "third");
+      ADD_FAILURE() << "no error";
+    }
+  catch (const UserError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("No space left"), std::string::npos) << e.what();
+    }
+  EXPECT_EQ(bytes(), newest);
+  EXPECT_EQ(bytes("checkpoint.old"), older);
+  EXPECT_FALSE(fs::exists(directory + "/checkpoint.new"));
+  EXPECT_THROW(write_checkpoint_file(directory + "/nowhere", 2, "third"), UserError);
+  // There is room again.
+  write_checkpoint_file(directory, 2, "third");
+  EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
+}
+} // namespace
+} // namespace scree
