@@ -134,10 +134,13 @@ Simulation<dim>::move_geometry()
                          {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
       {
         const unsigned int b = predictor.of_bodies.size();
-        require(motion.face_increment <= 1e-6 * grid->finest_size(), bodies[b].path,
-                "the body '" + bodies[b].name + "' moves by " + short_number(motion.face_increment)
-                  + " through a face of the background box, which does not move",
-                "hold the motion normal to that face, or let the body end inside the box");
+        if (motion.face_increment > 1e-6 * grid->finest_size()
+            && warned_pairs.insert({b, b}).second)
+          log.line("Warning: the body " + bodies[b].name + " moves by "
+                   + short_number(motion.face_increment)
+                   + " through a face of the background box, which does not move: its level set "
+                     "gains or loses volume there. Hold the motion normal to that face, or let the "
+                     "body end inside the box");
         predictor.of_bodies.push_back(std::move(motion.increment));
         record.n_islands += motion.n_islands;
       }

@@ -182,9 +182,10 @@ private:
   MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
   Predictor<dim>                       predictor;      //!< on a moving geometry
   std::vector<double> largest_contact_force;           //!< on each body in this step's iterations
-  std::set<std::pair<unsigned int, unsigned int>> warned_pairs; //!< told once
-  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;     //!< per pair
+  std::set<std::pair<unsigned int, unsigned int>>
+                             warned_pairs; //!< told once; (b, b): body b at the box
+  std::vector<bool>          was_closed;   //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status;  //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;      //!< per pair
 };
 } // namespace scree
