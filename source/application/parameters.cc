@@ -119,6 +119,9 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");
   study.declare(study_section, grid);
+  if (study.n_cycles > 1 && study.strategy == StudyStrategy::adaptive && moving.is_moving)
+    study_section.error("Strategy", "the error estimate needs a geometry that stays",
+                        "set Strategy = uniform, or Moving geometry/Update = none");
 }
 
 template struct OutputParameters<2>;

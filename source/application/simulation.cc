@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace scree
 {
@@ -45,6 +44,8 @@ Simulation<dim>::set_up()
       bodies[b].law
         = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
 
+  if (is_moving())
+    require_movable(bodies);
   pairs = find_pairs();
   discretise();
   was_closed.assign(contact->points().size(), false);
@@ -56,8 +57,7 @@ Simulation<dim>::set_up()
   if (is_moving())
     start_step();
   // Probes outside their bodies are told before anything is computed.
-  for (const auto &probe : parameters.output.probes)
-    results->sample_probe(probe, *bulk, equilibrium->with_ghosts(state.displacement));
+  results->require_probes(*bulk, equilibrium->with_ghosts(state.displacement));
 }
 
 template <int dim>
@@ -427,66 +427,6 @@ Simulation<dim>::write_results()
     is_written &= results->write_contact(record, *contact);
   if (!is_written)
     log.line("Warning: pictures of this step cannot be written (is the disk full?)");
-}
-
-template <int dim>
-double
-Simulation<dim>::n_level_set_values() const
-{
-  double sum = 0.;
-  for (const Body<dim> &body : bodies)
-    {
-      double product = 1.;
-      for (const auto n : body.level_set.n_nodes())
-        product *= n;
-      sum += product;
-    }
-  return sum;
-}
-
-template <int dim>
-ErrorEstimate
-Simulation<dim>::estimate_error() const
-{
-  ErrorEstimate result;
-  result.squares       = recovery_errors(*fields, *quadrature, bodies, *bulk,
-                                         equilibrium->with_ghosts(state.displacement));
-  const double squares = dealii::Utilities::MPI::sum(
-    std::accumulate(result.squares.begin(), result.squares.end(), 0.), communicator);
-  const double energy = equilibrium->energies().strain;
-  result.relative     = energy > 0. ? std::sqrt(squares / (2. * energy)) : 0.;
-  return result;
-}
-
-template <int dim>
-std::vector<bool>
-Simulation<dim>::contact_cells() const
-{
-  // The cells around closed points: those that hold the corners of a cell centred at the point.
-  std::vector<std::array<double, dim + 1>> closed;
-  for (unsigned int i = 0; i < was_closed.size(); ++i)
-    if (was_closed[i])
-      {
-        const ContactPoint<dim> &point = contact->points()[i];
-        closed.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          closed.back()[d] = point.position[d];
-        closed.back()[dim] = point.cell_size;
-      }
-  std::vector<bool>  result(grid->n_owned_cells(), false);
-  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, closed))
-    for (const auto &point : of_rank)
-      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-        {
-          dealii::Point<dim> position;
-          for (unsigned int d = 0; d < dim; ++d)
-            position[d] = point[d] + ((corner >> d) & 1u ? 0.5 : -0.5) * point[dim];
-          const auto location = grid->locate(position);
-          if (location.rank == rank)
-            result[location.local_cell] = true;
-        }
-  return result;
 }
 
 template class Simulation<2>;

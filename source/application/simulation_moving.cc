@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 // A run on a moving geometry: what happens between the load steps.
 namespace scree
@@ -132,6 +133,14 @@ Simulation<dim>::move_geometry()
          move_level_sets(bodies, *fields, ghosted,
                          {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
       {
+        const unsigned int b = predictor.of_bodies.size();
+        if (motion.face_increment > 1e-6 * grid->finest_size()
+            && warned_pairs.insert({b, b}).second)
+          log.line("Warning: the body " + bodies[b].name + " moves by "
+                   + short_number(motion.face_increment)
+                   + " through a face of the background box, which does not move: its level set "
+                     "gains or loses volume there. Hold the motion normal to that face, or let the "
+                     "body end inside the box");
         predictor.of_bodies.push_back(std::move(motion.increment));
         record.n_islands += motion.n_islands;
       }
@@ -150,6 +159,7 @@ Simulation<dim>::move_geometry()
   start_step();
   record.volumes = bulk->volumes();
   record.points  = state.points.totals(bodies.size(), communicator);
+  require_no_loss(record.points);
   for (const auto &force :
        transferred_forces(*contact, state.step_end.contact, state.contact, communicator))
     record.force_jumps.push_back(force.tangential_after - force.tangential_before);
@@ -174,6 +184,21 @@ Simulation<dim>::start_step()
   state.contact = recall(*contact, end.contact);
   equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
                           end.driving_forces);
+}
+
+template <int dim>
+void
+Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &points)
+{
+  // Division of points raises their number and keeps their mass and initial volume.
+  for (unsigned int b = 0; b < points.size() && !points_before.empty(); ++b)
+    AssertThrow(points[b].count >= points_before[b].count
+                  && std::abs(points[b].mass - points_before[b].mass)
+                       <= 1e-12 * points_before[b].mass
+                  && std::abs(points[b].initial_volume - points_before[b].initial_volume)
+                       <= 1e-12 * points_before[b].initial_volume,
+                dealii::ExcMessage("material points of " + bodies[b].name + " were lost"));
+  points_before = points;
 }
 
 template <int dim>
@@ -217,8 +242,9 @@ Simulation<dim>::predicted(const double time) const
     const typename Equilibrium<dim>::Vector &) const;                                            \
   template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &) \
     const;                                                                                       \
-  template void                              Simulation<dim>::move_geometry();                   \
-  template void                              Simulation<dim>::start_step();                      \
+  template void Simulation<dim>::move_geometry();                                                \
+  template void Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &);         \
+  template void Simulation<dim>::start_step();                                                   \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

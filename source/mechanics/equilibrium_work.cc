@@ -191,19 +191,19 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                      \
-  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);    \
-  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
-  template void   Equilibrium<dim>::store_energies(const Vector &);                           \
-  template void   Equilibrium<dim>::start_step(const double, const Vector &,                  \
-                                               const ContactHistory<dim> &, const Energies &, \
-                                               const std::vector<double> &);                  \
-  template void   Equilibrium<dim>::resume(const double, const Vector &,                      \
-                                           const ContactHistory<dim> &, const Energies &);    \
-  template void   Equilibrium<dim>::take_as_accepted(const double, const Vector &,            \
-                                                     const ContactHistory<dim> &);            \
-  template std::vector<double> Equilibrium<dim>::driving_forces() const;                      \
+#define SCREE_INSTANTIATE(dim)                                                                          \
+  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                \
+  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);              \
+  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);                \
+  template void   Equilibrium<dim>::store_energies(const Vector &);                                     \
+  template void   Equilibrium<dim>::start_step(const double, const Vector &,                            \
+                                               const ContactHistory<dim> &, const Energies &,           \
+                                               const std::vector<double> &);                            \
+  template std::vector<double> Equilibrium<dim>::driving_forces() const;                                \
+  template void                Equilibrium<dim>::resume(const double, const Vector &,                   \
+                                                        const ContactHistory<dim> &, const Energies &); \
+  template void                Equilibrium<dim>::take_as_accepted(const double, const Vector &,         \
+                                                                  const ContactHistory<dim> &);         \
   template void                Equilibrium<dim>::remember_conditions(const Vector &);
 
 SCREE_INSTANTIATE(2)

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <limits>
 #include <sstream>
 
 namespace scree
@@ -41,7 +42,7 @@ sample_columns()
 template <int dim>
 std::vector<std::vector<double>>
 sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<dim> &fields,
-       const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u)
+       const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u, const bool must_exist)
 {
   const MPI_Comm                   communicator = fields.grid.communicator();
   const unsigned int               rank = dealii::Utilities::MPI::this_mpi_process(communicator);
@@ -75,7 +76,9 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<
       dealii::Utilities::MPI::sum(row, communicator, row);
       std::ostringstream where;
       where << point;
-      require(row.back() == 1., "Output/Probes/" + probe.name,
+      if (row.back() != 1. && !must_exist)
+        row.assign(n_columns + 1, std::numeric_limits<double>::quiet_NaN());
+      require(row.back() == 1. || !must_exist, "Output/Probes/" + probe.name,
               "the body '" + probe.body + "' has no cell at the point " + where.str(),
               "choose points inside the body");
       row.pop_back();
@@ -89,7 +92,7 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<
   template std::vector<std::string>         sample_columns<dim>();                            \
   template std::vector<std::vector<double>> sample(                                           \
     const ProbeParameters<dim> &, const unsigned int, const Fields<dim> &, const Bulk<dim> &, \
-    const dealii::TrilinosWrappers::MPI::Vector &);
+    const dealii::TrilinosWrappers::MPI::Vector &, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

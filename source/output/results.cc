@@ -246,7 +246,16 @@ std::vector<std::vector<double>>
 Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Bulk<dim> &bulk,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u);
+  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u,
+                bulk.step_start() == nullptr);
+}
+
+template <int dim>
+void
+Results<dim>::require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const
+{
+  for (const auto &probe : probes)
+    sample(probe, body_index(probe.body), *fields, bulk, ghosted_u, true);
 }
 
 template <int dim>

@@ -188,7 +188,7 @@ TEST(Probes, UniaxialStrain)
   probe.end       = Point<2>(0.5, 0.75);
   probe.n_points  = 5;
   const auto u    = model.equilibrium.with_ghosts(model.state.displacement);
-  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u);
+  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u, true);
   ASSERT_EQ(rows.size(), 5u);
   const auto names  = sample_columns<2>();
   const auto column = [&](const std::string &name) {
@@ -207,7 +207,7 @@ TEST(Probes, UniaxialStrain)
       EXPECT_NEAR(rows[i][column("u_y")], -0.01 + eps_yy * (rows[i][1] - 1.), 1e-10);
     }
   probe.start = probe.end = Point<2>(0.5, -0.9);
-  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u), UserError);
+  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u, true), UserError);
 }
 
 TEST(BodyOutput, OnlyThePhysicalPartIsWritten)

@@ -49,7 +49,7 @@ public:
   /** Reports what was set up and writes it for pictures; computes nothing. */
   void check();
 
-  /** Of the present state, by stress recovery; collective. */
+  /** Of the present state, by stress recovery; NaN on a moving geometry; collective. */
   ErrorEstimate estimate_error() const;
 
   /** Owned grid cells at which bodies were in contact at the end of some load step; collective. */
@@ -105,6 +105,8 @@ private:
   void start_step();
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
+  /** Compares with the totals of the step before. */
+  void require_no_loss(const std::vector<PointTotals<dim>> &points);
   /** The material points after the increment, with the law's answers. */
   MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
   /** Why a converged increment is too large for the moving geometry; empty: it is not. */
@@ -176,12 +178,14 @@ private:
   State<dim>                           state;
   StepRecord                           record;         //!< of the step being solved
   typename Equilibrium<dim>::Vector    last_increment; //!< of the last step, per time
+  std::vector<PointTotals<dim>>        points_before;  //!< by body, at the end of the last step
   MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
   Predictor<dim>                       predictor;      //!< on a moving geometry
   std::vector<double> largest_contact_force;           //!< on each body in this step's iterations
-  std::set<std::pair<unsigned int, unsigned int>> warned_pairs; //!< told once
-  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;     //!< per pair
+  std::set<std::pair<unsigned int, unsigned int>>
+                             warned_pairs; //!< told once; (b, b): body b at the box
+  std::vector<bool>          was_closed;   //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status;  //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;      //!< per pair
 };
 } // namespace scree

@@ -34,8 +34,8 @@ public:
    * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
    * and multipliers.
    *
-   * @param energies       at the end of the step before: what the motion of the geometry
-   *                       changed in them is Energies::transfer
+   * @param energies       at the end of the step before: what the motion of the geometry changed in
+   *                       them is Energies::transfer
    * @param driving_forces there, see driving_forces(); empty at the start of a run. The work of
    *                       rigid bodies goes on from them: the forces at u = 0 are those of new
    *                       contact points that are not in equilibrium yet.

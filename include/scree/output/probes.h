@@ -27,11 +27,13 @@ template <int dim>
 std::vector<std::string> sample_columns();
 
 /**
- * Samples of a probe in initial coordinates; `u` ghosted. Same rows on all processes.
- * @throws UserError if the body has no cell at a point
+ * Samples of a probe, at places that do not move with the body; `u` ghosted. Same rows on all
+ * processes; NaN where the body has no cell at a point.
+ * @throws UserError instead of NaN if it must have one
  */
 template <int dim>
 std::vector<std::vector<double>> sample(const ProbeParameters<dim> &probe, const unsigned int body,
                                         const Fields<dim> &fields, const Bulk<dim> &bulk,
-                                        const dealii::TrilinosWrappers::MPI::Vector &u);
+                                        const dealii::TrilinosWrappers::MPI::Vector &u,
+                                        const bool                                   must_exist);
 } // namespace scree

@@ -90,10 +90,8 @@ public:
   /** Contact CSV and VTU; whether all was written, known to the first process. */
   bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
 
-  /** Samples of a probe; throws UserError if its body has no cell at a point. */
-  std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
-                                                const Bulk<dim>            &bulk,
-                                                const Vector               &ghosted_u) const;
+  /** Throws UserError if the body of a probe has no cell at one of its points. */
+  void require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const;
 
   /** Rows of the probes in probes.csv. */
   void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
@@ -112,10 +110,14 @@ public:
               const ContactPoints<dim> &contact);
 
 private:
-  std::vector<std::string> history_columns(const Equilibrium<dim>   &equilibrium,
-                                           const ContactPoints<dim> &contact) const;
-  std::vector<std::string> probe_columns() const;
-  std::vector<std::string> probe_table_columns() const;
+  /** Samples of a probe; on a moving geometry NaN where its body is no more. */
+  std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
+                                                const Bulk<dim>            &bulk,
+                                                const Vector               &ghosted_u) const;
+  std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
+                                                   const ContactPoints<dim> &contact) const;
+  std::vector<std::string>         probe_columns() const;
+  std::vector<std::string>         probe_table_columns() const;
   /** Adds a file to a PVD record; false if the file, empty, or the record was not written. */
   bool         add_picture(const double time, const std::string &file, const std::string &pvd,
                            std::vector<std::pair<double, std::string>> &records) const;

@@ -13,7 +13,7 @@ struct StepEnd
   ContactMemory<dim>  contact;
   std::vector<double> multipliers;
   Energies            energies;
-  std::vector<double> driving_forces; //!< of rigid bodies, component by component
+  std::vector<double> driving_forces; //!< of rigid bodies, see Equilibrium::driving_forces()
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
