@@ -212,6 +212,7 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
   start_step();
+  require_no_loss(state.points.totals(bodies.size(), communicator));
 }
 
 template <int dim>
