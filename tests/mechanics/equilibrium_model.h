@@ -59,8 +59,9 @@ struct EquilibriumModel
                 input.contact.shift * cut.grid.finest_size())
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
       , linear_solver(input.linear, dim, cut.fields->basis.degree)
-      , state{zero_displacement(*cut.fields), contact.initial_history(), 0., {}}
   {
+    state.displacement = zero_displacement(*cut.fields);
+    state.contact      = contact.initial_history();
     linear_solver.set_near_null_space(equilibrium.rigid_motions());
     linear_solver.set_border(cut.fields->n_trailing());
   }
