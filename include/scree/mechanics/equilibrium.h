@@ -105,7 +105,7 @@ public:
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
-  /** The |r| that round-off in A u leaves at the last residual(). */
+  /** The |r| that round-off in A u, or on a moving geometry in A x, leaves at the last residual(). */
   double round_off() const;
 
   /** The rigid motions for the near null space, see near_null_space(). */
