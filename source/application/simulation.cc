@@ -53,7 +53,7 @@ Simulation<dim>::set_up()
   state.displacement = zero_displacement(*fields);
   state.contact      = contact->initial_history();
   if (is_moving())
-    start_step({}, {}, {});
+    start_step({}, {}, {}, {});
   // Probes outside their bodies are told before anything is computed.
   for (const auto &probe : parameters.output.probes)
     results->sample_probe(probe, *bulk, equilibrium->with_ghosts(state.displacement));

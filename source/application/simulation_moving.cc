@@ -114,10 +114,10 @@ template <int dim>
 void
 Simulation<dim>::move_geometry()
 {
-  const auto               ghosted       = equilibrium->with_ghosts(state.displacement);
-  const ContactMemory<dim> memory        = remember(*contact, communicator);
-  const Energies           energies      = equilibrium->energies();
-  const auto               old_summaries = summarise_contact(*contact, communicator);
+  const auto               ghosted        = equilibrium->with_ghosts(state.displacement);
+  const ContactMemory<dim> memory         = remember(*contact, communicator);
+  const Energies           energies       = equilibrium->energies();
+  const auto               driving_forces = equilibrium->driving_forces();
   std::vector<double>      multipliers;
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     multipliers.push_back(ghosted(fields->multiplier(i)));
@@ -147,19 +147,19 @@ Simulation<dim>::move_geometry()
   state.points = std::move(points_at_end);
   discretise();
   results->set_discretization(*fields, *level_set_nodes);
-  start_step(memory, multipliers, energies);
-  record.volumes       = bulk->volumes();
-  record.points        = state.points.totals(bodies.size(), communicator);
-  const auto summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < summaries.size(); ++p)
-    record.force_jumps.push_back(summaries[p].force - old_summaries[p].force);
+  start_step(memory, multipliers, energies, driving_forces);
+  record.volumes = bulk->volumes();
+  record.points  = state.points.totals(bodies.size(), communicator);
+  for (const auto &force : transferred_forces(*contact, memory, state.contact, communicator))
+    record.force_jumps.push_back(force.tangential_after - force.tangential_before);
   results->gather_motion(record);
 }
 
 template <int dim>
 void
 Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
-                            const std::vector<double> &multipliers, const Energies &energies)
+                            const std::vector<double> &multipliers, const Energies &energies,
+                            const std::vector<double> &driving_forces)
 {
   state.displacement = zero_displacement(*fields);
   for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -172,7 +172,7 @@ Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
       state.displacement(fields->multiplier(i)) = multipliers[i];
   state.displacement.compress(dealii::VectorOperation::insert);
   state.contact = recall(*contact, memory);
-  equilibrium->start_step(state.time, state.displacement, state.contact, energies);
+  equilibrium->start_step(state.time, state.displacement, state.contact, energies, driving_forces);
 }
 
 template <int dim>
@@ -209,16 +209,17 @@ Simulation<dim>::predicted(const double time) const
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                           \
-  template void                Simulation<dim>::set_up_points();                                                         \
-  template void                Simulation<dim>::seed_points();                                                           \
-  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                            \
-    const typename Equilibrium<dim>::Vector &) const;                                                                    \
-  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                         \
-    const;                                                                                                               \
-  template void                              Simulation<dim>::move_geometry();                                           \
-  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                     \
-                                                                         const std::vector<double> &, const Energies &); \
+#define SCREE_INSTANTIATE(dim)                                                                                          \
+  template void                Simulation<dim>::set_up_points();                                                        \
+  template void                Simulation<dim>::seed_points();                                                          \
+  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                           \
+    const typename Equilibrium<dim>::Vector &) const;                                                                   \
+  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                        \
+    const;                                                                                                              \
+  template void                              Simulation<dim>::move_geometry();                                          \
+  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                    \
+                                                                         const std::vector<double> &, const Energies &, \
+                                                                         const std::vector<double> &);                  \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

@@ -121,7 +121,7 @@ Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
 template <int dim>
 void
 Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                             const Energies &energies)
+                             const Energies &energies, const std::vector<double> &driving_forces)
 {
   start_time = time;
   Vector at_start(u), r(u);
@@ -132,6 +132,10 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
   accepted_dead_loads            = dead_loads;
   reactions(accepted_reactions);
   accepted_reactions += applied_forces;
+  for (unsigned int i = 0; i < driving_forces.size(); ++i)
+    if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
+      accepted_reactions(fields.n_dofs() - fields.n_trailing() + i) = driving_forces[i];
+  accepted_reactions.compress(dealii::VectorOperation::insert);
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     if (fields.owned().is_element(fields.multiplier(i)))
       accepted_prescribed(fields.multiplier(i)) = loads(fields.multiplier(i));
@@ -140,6 +144,18 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
   current_energies = energies;
   store_energies(with_ghost_values);
   current_energies.transfer += current_energies.stored() - energies.stored();
+}
+
+template <int dim>
+std::vector<double>
+Equilibrium<dim>::driving_forces() const
+{
+  std::vector<double> result(fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies));
+  for (unsigned int i = 0; i < result.size(); ++i)
+    if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
+      result[i] = accepted_reactions(fields.n_dofs() - fields.n_trailing() + i);
+  dealii::Utilities::MPI::sum(result, fields.grid.communicator(), result);
+  return result;
 }
 
 template <int dim>
@@ -159,14 +175,16 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                       \
-  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);     \
-  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);       \
-  template void   Equilibrium<dim>::store_energies(const Vector &);                            \
-  template void   Equilibrium<dim>::start_step(const double, const Vector &,                   \
-                                               const ContactHistory<dim> &, const Energies &); \
-  template void   Equilibrium<dim>::remember_conditions(const Vector &);
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                      \
+  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);    \
+  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
+  template void   Equilibrium<dim>::store_energies(const Vector &);                           \
+  template void   Equilibrium<dim>::start_step(const double, const Vector &,                  \
+                                               const ContactHistory<dim> &, const Energies &, \
+                                               const std::vector<double> &);                  \
+  template std::vector<double> Equilibrium<dim>::driving_forces() const;                      \
+  template void                Equilibrium<dim>::remember_conditions(const Vector &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -106,9 +106,9 @@ private:
    * start of the step. */
   void set_up_points();
   void seed_points();
-  /** Begins a step on the new geometry; `memory` is of the contact of the last one. */
+  /** Begins a step on the new geometry with what the end of the last one left. */
   void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
-                  const Energies &energies);
+                  const Energies &energies, const std::vector<double> &driving_forces);
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
   /** The material points after the increment, with the law's answers. */

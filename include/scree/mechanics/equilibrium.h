@@ -58,10 +58,18 @@ public:
 
   /**
    * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
-   * and multipliers. `energies` are those at the end of the step before.
+   * and multipliers.
+   *
+   * @param energies       at the end of the step before
+   * @param driving_forces there, see driving_forces(); empty at the start of a run. The work of
+   *                       rigid bodies goes on from them: the forces at u = 0 are those of new
+   *                       contact points that are not in equilibrium yet.
    */
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                  const Energies &energies);
+                  const Energies &energies, const std::vector<double> &driving_forces);
+
+  /** What drives the rigid bodies at the accepted state, component by component (collective). */
+  std::vector<double> driving_forces() const;
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);

@@ -29,7 +29,7 @@ struct MotionRecord
 {
   std::vector<double>           volumes; //!< of all bodies by their level sets [L^dim]
   std::vector<PointTotals<dim>> points;  //!< of all bodies
-  /** By how much the contact force of each pair changed when its points were found anew. */
+  /** By how much the tangential force of each pair changed when its points were found anew. */
   std::vector<dealii::Tensor<1, dim>> force_jumps;
   MovingLeastSquaresReport            transfer_report;
   unsigned int                        n_islands = 0;
