@@ -181,6 +181,12 @@ private:
   void   add_artificial_mass(Matrix &matrix) const;
   void   eliminate_prescribed(Matrix &matrix) const;
   void   reactions(Vector &result) const;
+  /** Prescribed displacements and pressures that follow the surface: no dead loads. */
+  bool   works_by_traction(const BoundaryRegion<dim> &region) const;
+  /** What the traction of such a region works on: prescribed values, displacements under pressure.
+   */
+  dealii::Tensor<1, dim> driven_displacement(const BoundaryRegion<dim> &region, const unsigned int q,
+                                             const Vector &with_ghost_values) const;
   double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);
   void   remember_conditions(const Vector &with_ghost_values);
@@ -215,7 +221,7 @@ private:
   Energies current_energies;
   Vector   accepted_u, accepted_dead_loads, accepted_reactions;
   Vector   accepted_prescribed; //!< right-hand sides of the multiplier rows
-  /** Tractions and prescribed displacements at the points of displacement regions. */
+  /** Tractions and displacements at the points of the regions that works_by_traction() names. */
   std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
 };
 } // namespace scree
