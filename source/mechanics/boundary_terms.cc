@@ -301,6 +301,22 @@ BoundaryTerms<dim>::has_multipliers() const
 
 template <int dim>
 dealii::Tensor<1, dim>
+BoundaryTerms<dim>::displacement_at(const BoundaryRegion<dim> &region, const unsigned int q,
+                                    const Vector &u) const
+{
+  const auto            &point = region.points[q];
+  ShapeValues<dim>       shape;
+  dealii::Tensor<1, dim> result = point.start_displacement;
+  fields.basis.evaluate(point.unit_point, shape);
+  const DofIndex *nodes = fields.nodes(point.active_cell);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] += u(nodes[a] + d) * shape.value[a];
+  return result;
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
 BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned int q,
                              const Vector &u, const double time) const
 {
@@ -324,15 +340,12 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
   ShapeValues<dim>                    shape;
   std::vector<dealii::Tensor<1, dim>> stress;
   stress_vectors(region, point, shape, stress);
-  dealii::Tensor<1, dim> displacement = point.start_displacement, flux;
-  const DofIndex        *nodes        = fields.nodes(point.active_cell);
+  const dealii::Tensor<1, dim> displacement = displacement_at(region, q, u);
+  dealii::Tensor<1, dim>       flux;
+  const DofIndex              *nodes = fields.nodes(point.active_cell);
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double value = u(nodes[a] + d);
-        displacement[d] += value * shape.value[a];
-        flux += value * stress[a * dim + d];
-      }
+      flux += u(nodes[a] + d) * stress[a * dim + d];
   if (start && is_nonlinear(region))
     flux = stress_vector(region, q, u);
   const bool is_spring = condition.parameters.type == ConditionType::springs;

@@ -328,7 +328,14 @@ template <int dim>
 double
 Equilibrium<dim>::round_off() const
 {
-  return 1e-15 * largest_stiffness * displacement_norm;
+  double of_unknowns = 1e-15 * displacement_norm;
+  if (bulk.step_start() != nullptr)
+    {
+      // Displacements since the beginning are differences of positions.
+      const auto &[lower, upper] = fields.grid.box().get_boundary_points();
+      of_unknowns += 1e-16 * std::max(lower.norm(), upper.norm()) * std::sqrt(fields.n_dofs());
+    }
+  return largest_stiffness * of_unknowns;
 }
 
 template <int dim>

@@ -24,6 +24,25 @@ Equilibrium<dim>::work_of_multipliers(const Vector &u)
 }
 
 template <int dim>
+bool
+Equilibrium<dim>::works_by_traction(const BoundaryRegion<dim> &region) const
+{
+  const ConditionType type = region.condition->parameters.type;
+  return type == ConditionType::displacement
+         || (type == ConditionType::pressure && bulk.step_start() != nullptr);
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+Equilibrium<dim>::driven_displacement(const BoundaryRegion<dim> &region, const unsigned int q,
+                                      const Vector &with_ghost_values) const
+{
+  return region.condition->parameters.type == ConditionType::displacement
+           ? region.condition->vector(region.points[q].reference_position, time)
+           : boundary_terms.displacement_at(region, q, with_ghost_values);
+}
+
+template <int dim>
 double
 Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghost_values)
 {
@@ -41,17 +60,15 @@ Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghos
   accepted_reactions = forces;
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
-      const auto &region    = boundary_terms.regions()[i];
-      const auto &condition = *region.condition;
-      if (condition.parameters.type != ConditionType::displacement)
+      const auto &region = boundary_terms.regions()[i];
+      if (!works_by_traction(region))
         continue;
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
-          const auto &point    = region.points[q];
-          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
-          const auto  value    = condition.vector(point.reference_position, time);
-          work += 0.5 * point.weight * (accepted_tractions[i][q] + traction)
-                  * (value - accepted_displacements[i][q]);
+          const auto traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          const auto motion
+            = driven_displacement(region, q, with_ghost_values) - accepted_displacements[i][q];
+          work += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + traction) * motion;
         }
     }
   remember_conditions(with_ghost_values);
@@ -181,18 +198,20 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
       const auto &region = boundary_terms.regions()[i];
-      if (region.condition->parameters.type == ConditionType::displacement)
+      if (works_by_traction(region))
         for (unsigned int q = 0; q < region.points.size(); ++q)
           {
             accepted_tractions[i][q] = boundary_terms.traction(region, q, with_ghost_values, time);
-            accepted_displacements[i][q]
-              = region.condition->vector(region.points[q].reference_position, time);
+            accepted_displacements[i][q] = driven_displacement(region, q, with_ghost_values);
           }
     }
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                          \
   template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                \
+  template bool   Equilibrium<dim>::works_by_traction(const BoundaryRegion<dim> &) const;               \
+  template dealii::Tensor<1, dim> Equilibrium<dim>::driven_displacement(                                \
+    const BoundaryRegion<dim> &, const unsigned int, const Vector &) const;                             \
   template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);              \
   template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);                \
   template void   Equilibrium<dim>::store_energies(const Vector &);                                     \

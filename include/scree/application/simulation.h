@@ -103,6 +103,10 @@ private:
   void seed_points();
   /** Begins a step on the new geometry, see State::step_end. */
   void start_step();
+  /** m of the m^dim material points of a cell. */
+  unsigned int points_per_direction() const;
+  /** Divides points of finer cells than those they were made for. */
+  void divide_points();
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
   /** Compares with the totals of the step before. */

@@ -70,6 +70,10 @@ public:
   dealii::Tensor<1, dim> traction(const BoundaryRegion<dim> &region, const unsigned int q,
                                   const Vector &u, const double time) const;
 
+  /** Displacement since the beginning, u_n + u, at point `q` of a region; u ghosted. */
+  dealii::Tensor<1, dim> displacement_at(const BoundaryRegion<dim> &region, const unsigned int q,
+                                         const Vector &u) const;
+
   /** Resultant of each region, over all processes; `u` ghosted. */
   std::vector<Resultant<dim>> resultants(const Vector &u, const double time) const;
 

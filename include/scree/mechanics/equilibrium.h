@@ -92,7 +92,8 @@ public:
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
-  /** The |r| that round-off in A u leaves at the last residual(). */
+  /** The |r| that round-off in A u, or on a moving geometry in A x, leaves at the last residual().
+   */
   double round_off() const;
 
   /** The rigid motions for the near null space, see near_null_space(). */
@@ -154,17 +155,24 @@ public:
   }
 
 private:
-  void   set_up_matrices();
-  void   set_up_artificial_mass();
-  void   set_zero_on_prescribed(Vector &r) const;
-  void   add_artificial_mass(Matrix &matrix) const;
-  void   eliminate_prescribed(Matrix &matrix) const;
-  void   reactions(Vector &result) const;
-  double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
-  double work_of_multipliers(const Vector &u);
-  void   remember_conditions(const Vector &with_ghost_values);
-  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
-  void   store_energies(const Vector &with_ghost_values);
+  void set_up_matrices();
+  void set_up_artificial_mass();
+  void set_zero_on_prescribed(Vector &r) const;
+  void add_artificial_mass(Matrix &matrix) const;
+  void eliminate_prescribed(Matrix &matrix) const;
+  void reactions(Vector &result) const;
+  /** Prescribed displacements and pressures that follow the surface: no dead loads. */
+  bool works_by_traction(const BoundaryRegion<dim> &region) const;
+  /** What the traction of such a region works on: prescribed values, displacements under pressure.
+   */
+  dealii::Tensor<1, dim> driven_displacement(const BoundaryRegion<dim> &region,
+                                             const unsigned int         q,
+                                             const Vector              &with_ghost_values) const;
+  double                 work_of_displacements(const Vector &u, const Vector &with_ghost_values);
+  double                 work_of_multipliers(const Vector &u);
+  void                   remember_conditions(const Vector &with_ghost_values);
+  void take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
+  void store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
@@ -195,7 +203,7 @@ private:
   Energies current_energies;
   Vector   accepted_u, accepted_dead_loads, accepted_reactions;
   Vector   accepted_prescribed; //!< right-hand sides of the multiplier rows
-  /** Tractions and prescribed displacements at the points of displacement regions. */
+  /** Tractions and displacements at the points of the regions that works_by_traction() names. */
   std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
 };
 } // namespace scree
