@@ -20,10 +20,34 @@ Simulation<dim>::set_up_points()
   if (step_control.n_accepted() == 0)
     seed_points();
   else
-    send_to_owners<dim>(
-      state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
-      communicator);
+    {
+      send_to_owners<dim>(
+        state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
+        communicator);
+      split_distant_points();
+    }
   step_start = std::make_unique<StepStart<dim>>(*fields, bodies, state.points, parameters.moving);
+}
+
+template <int dim>
+unsigned int
+Simulation<dim>::points_per_direction() const
+{
+  return parameters.moving.points_per_direction > 0 ? parameters.moving.points_per_direction
+                                                    : parameters.degree + 1;
+}
+
+template <int dim>
+void
+Simulation<dim>::split_distant_points()
+{
+  // Stretching alone should divide no point.
+  constexpr double    allowance = 1.5;
+  std::vector<double> cell_size;
+  for (const dealii::Point<dim> &x : state.points.position)
+    cell_size.push_back(allowance * grid->cells()[grid->locate(x).local_cell].size);
+  split_points(state.points, cell_size, points_per_direction(),
+               {parameters.degree, parameters.moving.support});
 }
 
 template <int dim>
@@ -36,12 +60,9 @@ Simulation<dim>::seed_points()
   const PointSeeding<dim> seeding(*fields, *level_set_nodes, bodies, *quadrature, density);
   const unsigned int      n_internal
     = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
-  const unsigned int n_per_direction = parameters.moving.points_per_direction > 0
-                                         ? parameters.moving.points_per_direction
-                                         : parameters.degree + 1;
-  state.points                       = parameters.moving.places == PointPlaces::quadrature_points
-                                         ? seeding.at_quadrature_points(n_internal)
-                                         : seeding.on_sub_grid(n_per_direction, n_internal);
+  state.points = parameters.moving.places == PointPlaces::quadrature_points
+                   ? seeding.at_quadrature_points(n_internal)
+                   : seeding.on_sub_grid(points_per_direction(), n_internal);
 }
 
 template <int dim>
@@ -128,9 +149,9 @@ Simulation<dim>::move_geometry()
     const Timings::Scope scope(timings, "level sets");
     const double         margin = lattice_margin();
     predictor.of_bodies.clear();
-    for (auto &motion :
-         move_level_sets(bodies, *fields, ghosted,
-                         {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
+    for (auto &motion : move_level_sets(
+           bodies, *fields, ghosted, equilibrium->with_ghosts(step_start->displacement()),
+           {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
       {
         predictor.of_bodies.push_back(std::move(motion.increment));
         record.n_islands += motion.n_islands;
@@ -176,6 +197,36 @@ Simulation<dim>::start_step(const ContactMemory<dim>  &memory,
 }
 
 template <int dim>
+typename ContactPoints<dim>::Prediction
+Simulation<dim>::prediction() const
+{
+  if (predictor.step_size == 0.)
+    return {};
+  return [this](const unsigned int body, const dealii::Point<dim> &x) {
+    return expected_increment(body, x);
+  };
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+Simulation<dim>::expected_increment(const unsigned int body, const dealii::Point<dim> &x) const
+{
+  const double factor = step_control.step_size() / predictor.step_size;
+  if (!bodies[body].is_rigid())
+    {
+      // The increment belongs to where the point was before.
+      const auto &increment = predictor.of_bodies[body];
+      return factor * increment(x - increment(x));
+    }
+  auto       next = bodies[body].pose;
+  const auto now  = RigidPose<dim>(*bodies[body].rigid, next);
+  const auto X    = now.initial_position(x);
+  for (unsigned int m = 0; m < next.size(); ++m)
+    next[m] += factor * predictor.of_rigid[body][m];
+  return RigidPose<dim>(*bodies[body].rigid, next).displacement(X) - now.displacement(X);
+}
+
+template <int dim>
 typename Equilibrium<dim>::Vector
 Simulation<dim>::predicted(const double time) const
 {
@@ -209,17 +260,22 @@ Simulation<dim>::predicted(const double time) const
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                          \
-  template void                Simulation<dim>::set_up_points();                                                        \
-  template void                Simulation<dim>::seed_points();                                                          \
-  template MaterialPoints<dim> Simulation<dim>::moved_points(                                                           \
-    const typename Equilibrium<dim>::Vector &) const;                                                                   \
-  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &)                        \
-    const;                                                                                                              \
-  template void                              Simulation<dim>::move_geometry();                                          \
-  template void                              Simulation<dim>::start_step(const ContactMemory<dim> &,                    \
-                                                                         const std::vector<double> &, const Energies &, \
-                                                                         const std::vector<double> &);                  \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template void                Simulation<dim>::set_up_points();                                 \
+  template unsigned int        Simulation<dim>::points_per_direction() const;                    \
+  template void                Simulation<dim>::split_distant_points();                          \
+  template void                Simulation<dim>::seed_points();                                   \
+  template MaterialPoints<dim> Simulation<dim>::moved_points(                                    \
+    const typename Equilibrium<dim>::Vector &) const;                                            \
+  template std::string Simulation<dim>::why_too_large(const typename Equilibrium<dim>::Vector &) \
+    const;                                                                                       \
+  template void Simulation<dim>::move_geometry();                                                \
+  template void Simulation<dim>::start_step(const ContactMemory<dim> &,                          \
+                                            const std::vector<double> &, const Energies &,       \
+                                            const std::vector<double> &);                        \
+  template typename ContactPoints<dim>::Prediction Simulation<dim>::prediction() const;          \
+  template dealii::Tensor<1, dim>                  Simulation<dim>::expected_increment(          \
+                     const unsigned int, const dealii::Point<dim> &) const;                      \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

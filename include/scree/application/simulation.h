@@ -104,8 +104,11 @@ private:
   // Moving geometry, simulation_moving.cc.
   /** Material points of a new run, or those that moved, on their processes; what they say of the
    * start of the step. */
-  void set_up_points();
-  void seed_points();
+  void         set_up_points();
+  void         seed_points();
+  unsigned int points_per_direction() const; //!< of a cell at the start
+  /** Divides the points that are too far apart for the cells around them. */
+  void split_distant_points();
   /** Begins a step on the new geometry with what the end of the last one left. */
   void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
                   const Energies &energies, const std::vector<double> &driving_forces);
@@ -115,6 +118,11 @@ private:
   MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
   /** Why a converged increment is too large for the moving geometry; empty: it is not. */
   std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
+  /** expected_increment() for the search of contact; empty in the first step. */
+  typename ContactPoints<dim>::Prediction prediction() const;
+  /** What the last increment lets expect of a body at x in the coming step. */
+  dealii::Tensor<1, dim> expected_increment(const unsigned int        body,
+                                            const dealii::Point<dim> &x) const;
   /** The start of the step plus the last increment, scaled to the step. */
   typename Equilibrium<dim>::Vector predicted(const double time) const;
   void                              report_set_up();
