@@ -41,8 +41,11 @@ Simulation<dim>::set_up()
   }
   for (unsigned int b = 0; b < bodies.size() && is_moving(); ++b)
     if (!bodies[b].is_rigid())
-      bodies[b].law
-        = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
+      {
+        bodies[b].initial_level_set = std::make_shared<const Lattice<dim>>(bodies[b].level_set);
+        bodies[b].law
+          = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
+      }
 
   if (is_moving())
     require_movable(bodies);
@@ -107,7 +110,8 @@ Simulation<dim>::discretise()
   {
     const Timings::Scope scope(timings, "contact search");
     contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
-                                                   parameters.contact.shift * grid->finest_size());
+                                                   parameters.contact.shift * grid->finest_size(),
+                                                   prediction());
   }
   {
     const Timings::Scope scope(timings, "linear assembly");

@@ -152,9 +152,9 @@ Simulation<dim>::move_geometry()
     const Timings::Scope scope(timings, "level sets");
     const double         margin = lattice_margin();
     predictor.of_bodies.clear();
-    for (auto &motion :
-         move_level_sets(bodies, *fields, ghosted,
-                         {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
+    for (auto &motion : move_level_sets(
+           bodies, *fields, ghosted, equilibrium->with_ghosts(step_start->displacement()),
+           {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
       {
         const unsigned int b = predictor.of_bodies.size();
         if (motion.face_increment > 1e-6 * grid->finest_size()
@@ -225,6 +225,36 @@ Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &points)
 }
 
 template <int dim>
+typename ContactPoints<dim>::Prediction
+Simulation<dim>::prediction() const
+{
+  if (predictor.step_size == 0.)
+    return {};
+  return [this](const unsigned int body, const dealii::Point<dim> &x) {
+    return expected_increment(body, x);
+  };
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+Simulation<dim>::expected_increment(const unsigned int body, const dealii::Point<dim> &x) const
+{
+  const double factor = step_control.step_size() / predictor.step_size;
+  if (!bodies[body].is_rigid())
+    {
+      // The increment belongs to where the point was before.
+      const auto &increment = predictor.of_bodies[body];
+      return factor * increment(x - increment(x));
+    }
+  auto       next = bodies[body].pose;
+  const auto now  = RigidPose<dim>(*bodies[body].rigid, next);
+  const auto X    = now.initial_position(x);
+  for (unsigned int m = 0; m < next.size(); ++m)
+    next[m] += factor * predictor.of_rigid[body][m];
+  return RigidPose<dim>(*bodies[body].rigid, next).displacement(X) - now.displacement(X);
+}
+
+template <int dim>
 typename Equilibrium<dim>::Vector
 Simulation<dim>::predicted(const double time) const
 {
@@ -270,6 +300,9 @@ Simulation<dim>::predicted(const double time) const
   template void Simulation<dim>::move_geometry();                                                \
   template void Simulation<dim>::require_no_loss(const std::vector<PointTotals<dim>> &);         \
   template void Simulation<dim>::start_step();                                                   \
+  template typename ContactPoints<dim>::Prediction Simulation<dim>::prediction() const;          \
+  template dealii::Tensor<1, dim>                  Simulation<dim>::expected_increment(          \
+                     const unsigned int, const dealii::Point<dim> &) const;                      \
   template typename Equilibrium<dim>::Vector Simulation<dim>::predicted(const double) const;
 
 SCREE_INSTANTIATE(2)

@@ -25,20 +25,38 @@ modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
     = [](const Body<dim> &body) { return body.is_rigid() ? 0. : 1. / body.material->young(); };
   return 2. / (compliance(a) + compliance(b));
 }
+
+/** The tangential jump P d that is expected of the coming step, at most a cell. */
+template <int dim>
+dealii::Tensor<1, dim>
+expected_slide(const ContactPoint<dim> &point, const ContactPair &pair,
+               const typename ContactPoints<dim>::Prediction &prediction)
+{
+  if (!prediction)
+    return {};
+  dealii::Tensor<1, dim> slide
+    = prediction(pair.b, point.position) - prediction(pair.a, point.position);
+  slide -= (slide * point.normal) * point.normal;
+  const double length = slide.norm();
+  if (length > point.cell_size)
+    slide *= point.cell_size / length;
+  return slide;
+}
 } // namespace
 
 template <int dim>
 ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
                                   const std::vector<Body<dim>>   &bodies,
-                                  const std::vector<ContactPair> &pairs, const double shift)
+                                  const std::vector<ContactPair> &pairs, const double shift,
+                                  const Prediction &prediction)
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
   contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift);
-  find_stencils(fields, bodies);
+  find_stencils(fields, bodies, prediction);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
@@ -73,7 +91,8 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
 
 template <int dim>
 void
-ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
+ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                                  const Prediction &prediction)
 {
   const auto                            box = fields.grid.box();
   std::vector<unsigned int>             of_body;
@@ -81,13 +100,15 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
   std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      const ContactPair &pair = contact_pairs[contact_points[i].pair];
-      for (const unsigned int body : {pair.a, pair.b})
+      const ContactPair           &pair  = contact_pairs[contact_points[i].pair];
+      const dealii::Point<dim>    &x     = contact_points[i].position;
+      const dealii::Tensor<1, dim> slide = expected_slide(contact_points[i], pair, prediction);
+      for (const auto &[body, start] :
+           {std::make_pair(pair.a, x + 0.5 * slide), std::make_pair(pair.b, x - 0.5 * slide)})
         if (!bodies[body].is_rigid())
           {
             dealii::Point<dim> foot
-              = project(bodies[body].level_set, contact_points[i].position, fields.basis.degree)
-                  .point;
+              = project(bodies[body].level_set, start, fields.basis.degree).point;
             for (unsigned int d = 0; d < dim; ++d)
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
             of_body.push_back(body);
@@ -97,9 +118,10 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
         {
           const RigidPartner &partner = rigid_partners[side.partner];
           RigidFoot          &foot    = feet[i][side.number()];
-          foot.X                      = partner.start_pose.initial_position(
-                                 project(bodies[partner.body].level_set, contact_points[i].position, fields.basis.degree)
-                                   .point);
+          foot.X     = partner.start_pose.initial_position(project(bodies[partner.body].level_set,
+                                                                   x - 0.5 * side.sign * slide,
+                                                                   fields.basis.degree)
+                                                             .point);
           foot.start = partner.start_pose.displacement(foot.X);
         }
     }

@@ -7,6 +7,24 @@
 
 namespace scree
 {
+namespace
+{
+/** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
+template <int dim>
+std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>>
+nodal_gradients(const LagrangeBasis<dim> &basis, const GridCell<dim> &cell, const Lattice<dim> &a,
+                const Lattice<dim> &b)
+{
+  std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> result;
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    {
+      const dealii::Point<dim> x = cell.lower + cell.size * dealii::Tensor<1, dim>(basis.node(i));
+      result[i] = a.value_and_gradient(x, 3).second - b.value_and_gradient(x, 3).second;
+    }
+  return result;
+}
+} // namespace
+
 template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
@@ -44,6 +62,7 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
             continue;
           const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
           const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
+          const auto            gradients  = nodal_gradients<dim>(basis, cell, a, b);
           for (unsigned int q = 0; q < surface.points.size(); ++q)
             {
               basis.evaluate_values(surface.points[q], shape.data());
@@ -53,9 +72,12 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
               // A contour through a vertex leaves points of no length in the cells that touch it.
               if (gap > 2. * shift || surface.weights[q] < negligible)
                 continue;
+              dealii::Tensor<1, dim> normal;
+              for (unsigned int i = 0; i < basis.n_nodes; ++i)
+                normal += shape[i] * gradients[i];
               surface_points.push_back(
                 {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
-                 surface.normals[q], surface.weights[q], gap, cell.size});
+                 normal / normal.norm(), surface.weights[q], gap, cell.size});
             }
         }
     }

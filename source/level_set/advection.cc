@@ -239,6 +239,7 @@ AdvectionCount
 advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const IncrementMotion motion,
                  const AdvectionScheme &scheme)
 {
+  Assert(motion != IncrementMotion::reference_map, ExcMessage("See image_of_initial()."));
   if (motion == IncrementMotion::frozen_velocity)
     return advect<dim>(lattice, du, 1., scheme);
 
@@ -269,6 +270,30 @@ advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const Incre
 
 template <int dim>
 AdvectionCount
+image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const NodalVectors<dim> &du,
+                 const NodalVectors<dim> &displacement)
+{
+  assert_sizes<dim>(lattice, du);
+  assert_sizes<dim>(lattice, displacement);
+  const NodeSet<dim> nodes     = all_nodes(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()});
+  NodalVectors<dim>  increment = packed<dim>(nodes, du), u;
+  largest_speed<dim>(increment, 0, nodes.n_nodes); // throws unless finite
+  const std::size_t n_unconverged = map_velocity<dim>(nodes, du, 1., increment);
+  for (unsigned int d = 0; d < dim; ++d)
+    values_at_departure<dim>(nodes, displacement[d], increment, u[d]);
+  for (const NodeRun &run : nodes.runs)
+    for (std::size_t i = 0; i < run.n; ++i)
+      {
+        Point<dim> X = lattice.node(lattice.index(run.node + i));
+        for (unsigned int d = 0; d < dim; ++d)
+          X[d] -= increment[d][run.packed + i] + u[d][run.packed + i];
+        lattice.values()[run.node + i] = initial.value(X, 3);
+      }
+  return {1, n_unconverged, nodes.n_nodes};
+}
+
+template <int dim>
+AdvectionCount
 advect_tiles(Lattice<dim> &lattice, const std::function<Tensor<1, dim>(const Point<dim> &)> &du,
              const double band)
 {
@@ -295,15 +320,17 @@ advect_tiles(Lattice<dim> &lattice, const std::function<Tensor<1, dim>(const Poi
   return count;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                  \
-  template AdvectionCount advect<dim>(Lattice<dim> &,                                           \
-                                      const std::function<void(double, NodalVectors<dim> &)> &, \
-                                      double, const AdvectionScheme &);                         \
-  template AdvectionCount advect<dim>(Lattice<dim> &, const NodalVectors<dim> &, double,        \
-                                      const AdvectionScheme &);                                 \
-  template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,      \
-                                                IncrementMotion, const AdvectionScheme &);      \
-  template AdvectionCount advect_tiles<dim>(                                                    \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template AdvectionCount advect<dim>(Lattice<dim> &,                                            \
+                                      const std::function<void(double, NodalVectors<dim> &)> &,  \
+                                      double, const AdvectionScheme &);                          \
+  template AdvectionCount advect<dim>(Lattice<dim> &, const NodalVectors<dim> &, double,         \
+                                      const AdvectionScheme &);                                  \
+  template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,       \
+                                                IncrementMotion, const AdvectionScheme &);       \
+  template AdvectionCount image_of_initial<dim>(                                                 \
+    Lattice<dim> &, const Lattice<dim> &, const NodalVectors<dim> &, const NodalVectors<dim> &); \
+  template AdvectionCount advect_tiles<dim>(                                                     \
     Lattice<dim> &, const std::function<Tensor<1, dim>(const Point<dim> &)> &, double);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -12,7 +12,8 @@ MovingGeometryParameters::declare(ParameterSection &section)
     = {{DeformationTransfer::reference_map, "reference map"},
        {DeformationTransfer::moving_least_squares, "moving least squares"}};
   const EnumNames<IncrementMotion> motion_names
-    = {{IncrementMotion::semi_lagrangian, "semi-Lagrangian"},
+    = {{IncrementMotion::reference_map, "reference map"},
+       {IncrementMotion::semi_lagrangian, "semi-Lagrangian"},
        {IncrementMotion::map_velocity, "map velocity"},
        {IncrementMotion::frozen_velocity, "frozen velocity"}};
   section.entry("Update", is_moving, updates,
@@ -30,10 +31,13 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "the points carry.");
   section.entry("Support", support, dealii::Patterns::Double(1., 5.),
                 "Radius of moving least squares, in cells or distances of points [-].");
-  section.entry("Level set motion", motion, motion_names,
-                "semi-Lagrangian: traced back through the increment, no bound on the step; map "
-                "velocity: WENO5 with the velocity that belongs to the increment; frozen velocity: "
-                "WENO5 with the increment as velocity, wrong for rotations, for comparison only.");
+  section.entry(
+    "Level set motion", motion, motion_names,
+    "reference map: the image of the initial level set by the displacement of the material "
+    "points, no errors of steps add up; semi-Lagrangian: traced back through the increment, no "
+    "bound on the step; map "
+    "velocity: WENO5 with the velocity that belongs to the increment; frozen velocity: "
+    "WENO5 with the increment as velocity, wrong for rotations, for comparison only.");
   section.entry("Slope tolerance", slope_tolerance, dealii::Patterns::Double(1e-3, 1.),
                 "A level set becomes a distance again where ||grad phi| - 1| exceeds this [-].");
   section.entry("Largest motion", largest_motion, positive_number(),

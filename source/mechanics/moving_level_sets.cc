@@ -367,11 +367,33 @@ box_of_body(const Lattice<dim> &lattice, const dealii::BoundingBox<dim> &clip)
   return dealii::BoundingBox<dim>({lower, upper});
 }
 
+/** Nodes in the body's cells: those where a field of IncrementInCells is set. */
+template <int dim>
+std::vector<char>
+known_nodes(const NodalVectors<dim> &v)
+{
+  std::vector<char> known(v[0].size());
+  for (std::size_t i = 0; i < known.size(); ++i)
+    known[i] = v[0][i] != unset;
+  return known;
+}
+
+/** A field of the body at all nodes of its lattice. */
+template <int dim>
+NodalVectors<dim>
+continued_field(const Lattice<dim> &lattice, const Fields<dim> &fields, const Vector &field,
+                const std::vector<unsigned int> &cells)
+{
+  NodalVectors<dim> v = IncrementInCells<dim>(fields, field, lattice).at_nodes(cells);
+  continue_off_body<dim>(lattice, known_nodes<dim>(v), fields.grid.box(), v);
+  return v;
+}
+
 template <int dim>
 BodyMotion<dim>
 move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
-               const std::vector<unsigned int> &cells, const LevelSetMotion &options,
-               const double largest_increment)
+               const Vector &displacement, const std::vector<unsigned int> &cells,
+               const LevelSetMotion &options, const double largest_increment)
 {
   const dealii::BoundingBox<dim> box = fields.grid.box();
   Lattice<dim>                  &phi = body.level_set;
@@ -383,18 +405,22 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
       result.is_reboxed = true;
     }
 
-  NodalVectors<dim> v = IncrementInCells<dim>(fields, du, phi).at_nodes(cells);
-  std::vector<char> known(phi.values().size());
-  for (std::size_t i = 0; i < known.size(); ++i)
-    known[i] = v[0][i] != unset;
-  result.face_increment = largest_through_faces<dim>(phi, known, box, v);
+  NodalVectors<dim>       v     = IncrementInCells<dim>(fields, du, phi).at_nodes(cells);
+  const std::vector<char> known = known_nodes<dim>(v);
+  result.face_increment         = largest_through_faces<dim>(phi, known, box, v);
   continue_off_body<dim>(phi, known, box, v);
 
   if (has_contour(phi))
     {
       const std::vector<double> old = phi.values();
-      result.n_unconverged          = advect_increment<dim>(phi, v, options.motion).n_unconverged;
-      result.n_islands              = remove_islands<dim>(phi, old, known, v);
+      if (options.motion == IncrementMotion::reference_map)
+        result.n_unconverged
+          = image_of_initial<dim>(phi, *body.initial_level_set, v,
+                                  continued_field<dim>(phi, fields, displacement, cells))
+              .n_unconverged;
+      else
+        result.n_unconverged = advect_increment<dim>(phi, v, options.motion).n_unconverged;
+      result.n_islands = remove_islands<dim>(phi, old, known, v);
       ReinitialisationOptions reinitialisation;
       reinitialisation.tolerance = options.reinitialisation_tolerance;
       result.contour_motion      = reinitialise(phi, reinitialisation).contour_motion;
@@ -405,48 +431,6 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
   return result;
 }
 } // namespace
-
-template <int dim>
-ExtendedIncrement<dim>::ExtendedIncrement(const Lattice<dim> &lattice, NodalVectors<dim> &&values)
-    : first(lattice.node(lattice.lower()))
-    , spacing(lattice.spacing())
-    , n_nodes(lattice.n_nodes())
-    , nodal(std::move(values))
-{
-}
-
-template <int dim>
-dealii::Tensor<1, dim>
-ExtendedIncrement<dim>::operator()(const dealii::Point<dim> &x) const
-{
-  std::size_t                  node = 0, step = 1;
-  std::array<std::size_t, dim> stride;
-  std::array<double, dim>      t;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double s    = std::clamp((x[d] - first[d]) / spacing, 0., n_nodes[d] - 1.);
-      const int    base = std::min(static_cast<int>(s), n_nodes[d] - 2);
-      t[d]              = s - base;
-      stride[d]         = step;
-      node += base * step;
-      step *= n_nodes[d];
-    }
-  dealii::Tensor<1, dim> result;
-  for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-    {
-      double      weight = 1.;
-      std::size_t at     = node;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const bool above = corner >> d & 1u;
-          weight *= above ? t[d] : 1. - t[d];
-          at += above ? stride[d] : 0;
-        }
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] += weight * nodal[d][at];
-    }
-  return result;
-}
 
 template <int dim>
 void
@@ -462,7 +446,7 @@ require_movable(const std::vector<Body<dim>> &bodies)
 template <int dim>
 std::vector<BodyMotion<dim>>
 move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const Vector &du,
-                const LevelSetMotion &options)
+                const Vector &displacement, const LevelSetMotion &options)
 {
   require_movable(bodies);
   const auto                   cells   = cells_of_bodies(fields, bodies.size());
@@ -470,15 +454,16 @@ move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const
   std::vector<BodyMotion<dim>> motions(bodies.size());
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
-      motions[b] = move_level_set(bodies[b], fields, du, cells[b], options, largest[b]);
+      motions[b]
+        = move_level_set(bodies[b], fields, du, displacement, cells[b], options, largest[b]);
   return motions;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                           \
-  template class ExtendedIncrement<dim>;                                                 \
-  template void                         require_movable(const std::vector<Body<dim>> &); \
-  template std::vector<BodyMotion<dim>> move_level_sets(                                 \
-    std::vector<Body<dim>> &, const Fields<dim> &, const Vector &, const LevelSetMotion &);
+#define SCREE_INSTANTIATE(dim)                                                               \
+  template void                         require_movable(const std::vector<Body<dim>> &);     \
+  template std::vector<BodyMotion<dim>> move_level_sets(std::vector<Body<dim>> &,            \
+                                                        const Fields<dim> &, const Vector &, \
+                                                        const Vector &, const LevelSetMotion &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

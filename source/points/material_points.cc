@@ -75,9 +75,15 @@ template <int dim>
 double
 MaterialPoints<dim>::spacing(const std::size_t point) const
 {
-  const auto stretches = eigenvalues(
-    SymmetricTensor<2, dim>(deformation_gradient[point] * transpose(deformation_gradient[point])));
-  return initial_spacing[point] * std::sqrt(stretches[0]);
+  const Tensor<2, dim> &F = deformation_gradient[point];
+  if constexpr (dim == 2)
+    // Singular values without the cancellation that eigenvalues of F F^T suffer at small shears.
+    return 0.5 * initial_spacing[point]
+           * (std::hypot(F[0][0] + F[1][1], F[1][0] - F[0][1])
+              + std::hypot(F[0][0] - F[1][1], F[1][0] + F[0][1]));
+  else
+    return initial_spacing[point]
+           * std::sqrt(eigenvalues(SymmetricTensor<2, dim>(F * transpose(F)))[0]);
 }
 
 template <int dim>

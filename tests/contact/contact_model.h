@@ -14,7 +14,8 @@ namespace scree
 /** The contact points of a model, the same law for all pairs. */
 template <int dim>
 ContactPoints<dim>
-contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless)
+contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless,
+               const typename ContactPoints<dim>::Prediction &prediction = {})
 {
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
@@ -24,7 +25,7 @@ contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::f
       pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
     }
   return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                            CutBodies<dim>::shift * model.grid.finest_size());
+                            CutBodies<dim>::shift * model.grid.finest_size(), prediction);
 }
 
 /** u with values body by body, ghosted wherever the stencils reach. */

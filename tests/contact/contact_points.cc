@@ -104,6 +104,40 @@ TEST(ContactPoints, JumpOfLinearFields3D)
                                 {"upper", half_space_text("0, 0, 0.063", "-0.1, -0.2, -1")}})));
 }
 
+/** The largest change of the gap when a disc turns by `angle` in a hole of its size. */
+double
+gap_of_turned_disc(const unsigned int level, const double angle, const bool is_predicted)
+{
+  const CutBodies<2> model(
+    grid_text("-2, -2", "2, 2", "1, 1", level) + degree_text(2)
+    + bodies_text({{"disc", shape_text("disc", "set Centre = 0, 0\nset Radius = 1")},
+                   {"ring", shape_text("ring", "set Centre = 0, 0\nset Radius = 1.7\nset Inner "
+                                               "radius = 1.001")}}));
+  const auto turn = [&](const unsigned int body, const Point<2> &x) {
+    const double c = body == 0 ? std::cos(angle) - 1. : 0., s = body == 0 ? std::sin(angle) : 0.;
+    return Tensor<1, 2>({c * x[0] - s * x[1], s * x[0] + c * x[1]});
+  };
+  ContactPoints<2> contact
+    = contact_points<2>(model, ContactLaw::frictionless,
+                        is_predicted ? typename ContactPoints<2>::Prediction(turn)
+                                     : typename ContactPoints<2>::Prediction());
+  contact.evaluate(displacement<2>(model, contact, turn), contact.initial_history());
+  double largest = 0.;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    largest = std::max(largest, std::abs(contact.gap(i) - contact.points()[i].initial_gap));
+  return largest;
+}
+
+TEST(ContactPoints, SlidingOfCurvedSurfacesKeepsTheGap)
+{
+  // Surfaces that touch all along slide by s on a radius 1: the gap stays, n.[[u]] is s^2/2.
+  const double s = 0.04, plain = gap_of_turned_disc(6, s, false),
+               predicted = gap_of_turned_disc(6, s, true);
+  std::cout << "change of the gap: " << plain << ", predicted " << predicted << '\n';
+  EXPECT_NEAR(plain, s * s / 2., 0.1 * s * s);
+  EXPECT_LT(predicted, 0.05 * plain);
+}
+
 TEST(ContactPoints, SurfaceOnGridLineIsCountedOnce)
 {
   // The bodies touch on a grid line: the surface belongs to the cells of one side.

@@ -209,6 +209,33 @@ TEST(Increments, ShearADiscTo100Percent)
     }
 }
 
+// A square turned by 360 degrees: advection rounds its corners step by step, the image of the
+// initial level set keeps them.
+TEST(Increments, ImageOfTheInitialLevelSetDoesNotWear)
+{
+  const double   h = 0.25, angle = 2 * numbers::PI / 100;
+  const Point<2> centre(1, 0.5);
+  const auto     square = [&](const Point<2> &x) {
+    return std::max(std::abs(x[0] - centre[0]), std::abs(x[1] - centre[1])) - 3.;
+  };
+  const auto initial = sampled<2>(h, 7, square);
+  auto       worn = initial, image = initial;
+  const auto du = vectors<2>(initial, [&](const Point<2> &x) { return turned(x, angle) - x; });
+  for (int step = 0; step < 100; ++step)
+    {
+      advect_increment<2>(worn, du);
+      const auto u
+        = vectors<2>(initial, [&](const Point<2> &x) { return x - turned(x, -step * angle); });
+      EXPECT_EQ(image_of_initial<2>(image, initial, du, u).n_unconverged, 0u);
+    }
+  const Comparison by_steps = compare(worn, centre, 5, square),
+                   at_once  = compare(image, centre, 5, square);
+  std::cout << "area, distance/h by steps " << by_steps.area << ", " << by_steps.distance / h
+            << ", image " << at_once.area << ", " << at_once.distance / h << '\n';
+  EXPECT_LT(std::abs(at_once.area), 1e-5);
+  EXPECT_LT(at_once.distance, 0.1 * by_steps.distance);
+}
+
 TEST(ReleaseIncrements, TurnABallIn3d)
 {
   const double h = 0.1, angle = numbers::PI / 20;

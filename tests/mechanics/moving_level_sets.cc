@@ -244,7 +244,8 @@ TEST(MovingLevelSets, KeepPiecesAndRemoveIslands)
   for (int i = 2; i < 6; ++i)
     for (int j = 2; j < 6; ++j)
       phi({{corner[0] + i, corner[1] + j}}) = -0.3;
-  const auto motions = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.options);
+  const auto motions
+    = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.nodal(shift), it.options);
   EXPECT_EQ(motions.front().n_islands, 1u);
   std::size_t n_far = 0;
   for (std::size_t i = 0; i < phi.values().size(); ++i)
@@ -317,7 +318,7 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
   const std::clock_t  start = std::clock();
   Lattice<2>          phi   = it.lattice();
   const BodyMotion<2> motion
-    = move_level_sets(it.cut.bodies, *it.cut.fields, du, it.options).front();
+    = move_level_sets(it.cut.bodies, *it.cut.fields, du, du, it.options).front();
   const double all = seconds_since(start);
 
   NodalVectors<2>   v = motion.increment.values();
@@ -346,7 +347,7 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolveIn3D)
                         + bodies_text({{"it", ball_text("1, 1, 1", 0.625)}})); // 40 cells across
   const Vector       du    = it.nodal(affine<3>(turn<3>(0.02), Point<3>(1., 1., 1.)));
   const std::clock_t start = std::clock();
-  move_level_sets(it.cut.bodies, *it.cut.fields, du, it.options);
+  move_level_sets(it.cut.bodies, *it.cut.fields, du, du, it.options);
   const double   all = seconds_since(start);
   const DofIndex n   = it.cut.fields->n_dofs();
   std::cout << n << " unknowns, " << it.lattice().values().size() << " lattice nodes: " << 1e3 * all

@@ -157,6 +157,12 @@ TEST(MaterialPoints, spacing_follows_the_largest_stretch)
   Tensor<2, 2> rotation({{c, -s}, {s, c}}), stretch({{0.8, 0.}, {0., 3.}});
   points.deformation_gradient[0] = rotation * stretch;
   EXPECT_NEAR(points.spacing(0), 1.5, 1e-14);
+  // tiny shears at equal stretches
+  for (double shear = 1e-6; shear > 1e-12; shear *= 0.37)
+    {
+      points.deformation_gradient[0] = Tensor<2, 2>({{1.1, shear}, {0.3 * shear, 1.1}});
+      EXPECT_NEAR(points.spacing(0), 0.55, 1e-6);
+    }
 }
 
 // Splitting keeps mass, initial volume and momentum, reproduces linear fields, and leaves no point

@@ -115,6 +115,11 @@ private:
   MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
   /** Why a converged increment is too large for the moving geometry; empty: it is not. */
   std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
+  /** expected_increment() for the search of contact; empty in the first step. */
+  typename ContactPoints<dim>::Prediction prediction() const;
+  /** What the last increment lets expect of a body at x in the coming step. */
+  dealii::Tensor<1, dim> expected_increment(const unsigned int        body,
+                                            const dealii::Point<dim> &x) const;
   /** The start of the step plus the last increment, scaled to the step. */
   typename Equilibrium<dim>::Vector predicted(const double time) const;
   // Checkpoints, simulation_checkpoint.cc.

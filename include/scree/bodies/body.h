@@ -54,6 +54,8 @@ struct Body
   std::vector<BoundaryCondition<dim>>   conditions;
   /** The law of moving geometry; null if the geometry stays or the body is rigid. */
   std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
+  /** The level set at the start of a run with moving geometry; null for rigid bodies. */
+  std::shared_ptr<const Lattice<dim>> initial_level_set = nullptr;
   /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
   typename RigidPose<dim>::Unknowns pose = {};
 

@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,11 @@ struct ContactHistory
  * the place of the nodes, with the derivatives of a finite rotation. The motion counts from the
  * pose q_n of Body::pose, in which its level set shows it: u(X; q) - u(X; q_n).
  *
+ * On bodies that slide, x_a and x_b are the points that are expected to meet in the middle of the
+ * step: with the jump d that a prediction tells, P = I - n n^T, they are the projections of
+ * x + P d/2 and x - P d/2. Then g_0 + n.[[u]] is the gap at the end to second order in d; with
+ * d = 0 it misses kappa d^2/2 for surfaces of curvature kappa that touch all along.
+ *
  * Consecutive points with the same nodes form a group, so that a group is one dense block of the
  * matrix.
  */
@@ -42,13 +48,18 @@ class ContactPoints
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+  /** The increment that is expected of a body at a point in the coming step [L]. */
+  using Prediction
+    = std::function<dealii::Tensor<1, dim>(unsigned int, const dealii::Point<dim> &)>;
+
   /**
    * @param shift bound on phi on the contact surface [L]
+   * @param prediction empty: no sliding is expected
    * @throws UserError if two rigid bodies have no penalty modulus
    */
   ContactPoints(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift);
+                const double shift, const Prediction &prediction = {});
 
   const std::vector<ContactPoint<dim>> &points() const
   {
@@ -132,7 +143,8 @@ public:
 
 private:
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
-  void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+  void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                     const Prediction &prediction);
 
   /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
   void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,

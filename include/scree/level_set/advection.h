@@ -30,6 +30,7 @@ struct AdvectionScheme
 /** How a level set follows a displacement increment du. */
 enum class IncrementMotion
 {
+  reference_map,   // phi_new(x) = phi_0(X), X the initial position: image_of_initial()
   semi_lagrangian, // phi_new(x) = phi(X), X + du(X) = x; the whole increment at once
   map_velocity,    // v(x, tau) = du(X), X + tau du(X) = x, tau from 0 to 1
   frozen_velocity  // v = du: its flow differs from the map by O(|du| |grad du|)
@@ -69,6 +70,20 @@ template <int dim>
 AdvectionCount advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du,
                                 IncrementMotion        motion = IncrementMotion::semi_lagrangian,
                                 const AdvectionScheme &scheme = AdvectionScheme());
+
+/**
+ * Makes a level set, from before the increment `x = y + du(y)`, the image of the initial one under
+ * the whole motion `y = X + u(X)`:
+ *
+ *     phi(x) = phi_0(X),   X = y - u(y),   y = x - du(y),
+ *
+ * phi_0 and u (length, nodal, at the start of the increment) by cubic interpolation. Nothing of the
+ * old values enters, so that no errors of increments add up (reference map technique: Kamrin,
+ * Rycroft, Nave, J. Mech. Phys. Solids 60, 2012).
+ */
+template <int dim>
+AdvectionCount image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial,
+                                const NodalVectors<dim> &du, const NodalVectors<dim> &displacement);
 
 /**
  * The semi-Lagrangian update of a lattice in tiles: `phi_new(x) = phi(X)`, `X + du(X) = x`, at

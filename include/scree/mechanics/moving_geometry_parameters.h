@@ -28,7 +28,7 @@ struct MovingGeometryParameters
   unsigned int        points_per_direction = 0; //!< of a cell; 0: degree + 1
   DeformationTransfer deformation          = DeformationTransfer::reference_map;
   double              support              = 1.75; //!< of moving least squares, in cells
-  IncrementMotion     motion               = IncrementMotion::semi_lagrangian;
+  IncrementMotion     motion               = IncrementMotion::reference_map;
   double              slope_tolerance      = 0.1; //!< of ||grad phi| - 1| before reinitialisation
   double              largest_motion       = 2.;  //!< of a body in a step, in finest cells
   double              largest_slip         = 1.;  //!< of contact in a step, in finest cells

@@ -86,10 +86,13 @@ void require_movable(const std::vector<Body<dim>> &bodies);
  * contour stays on it or slides along it. An island is a piece of the new {phi < 0} that no node of
  * the old body in its cells goes to.
  *
- * @param du with ghosts, hanging nodes distributed; collective call
+ * @param du           with ghosts, hanging nodes distributed; collective call
+ * @param displacement the same for u = x - X at the start of the step; for the reference map only
  */
 template <int dim>
 std::vector<BodyMotion<dim>>
 move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields,
-                const dealii::TrilinosWrappers::MPI::Vector &du, const LevelSetMotion &options);
+                const dealii::TrilinosWrappers::MPI::Vector &du,
+                const dealii::TrilinosWrappers::MPI::Vector &displacement,
+                const LevelSetMotion                        &options);
 } // namespace scree

@@ -1,0 +1,52 @@
+#include <scree/mechanics/moving_level_sets.h>
+
+#include <algorithm>
+
+// Increments of bodies off their cells.
+namespace scree
+{
+template <int dim>
+ExtendedIncrement<dim>::ExtendedIncrement(const Lattice<dim> &lattice, NodalVectors<dim> &&values)
+    : first(lattice.node(lattice.lower()))
+    , spacing(lattice.spacing())
+    , n_nodes(lattice.n_nodes())
+    , nodal(std::move(values))
+{
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+ExtendedIncrement<dim>::operator()(const dealii::Point<dim> &x) const
+{
+  std::size_t                  node = 0, step = 1;
+  std::array<std::size_t, dim> stride;
+  std::array<double, dim>      t;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double s    = std::clamp((x[d] - first[d]) / spacing, 0., n_nodes[d] - 1.);
+      const int    base = std::min(static_cast<int>(s), n_nodes[d] - 2);
+      t[d]              = s - base;
+      stride[d]         = step;
+      node += base * step;
+      step *= n_nodes[d];
+    }
+  dealii::Tensor<1, dim> result;
+  for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+    {
+      double      weight = 1.;
+      std::size_t at     = node;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const bool above = corner >> d & 1u;
+          weight *= above ? t[d] : 1. - t[d];
+          at += above ? stride[d] : 0;
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += weight * nodal[d][at];
+    }
+  return result;
+}
+
+template class ExtendedIncrement<2>;
+template class ExtendedIncrement<3>;
+} // namespace scree
