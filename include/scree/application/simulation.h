@@ -106,10 +106,6 @@ private:
    * start of the step. */
   void set_up_points();
   void seed_points();
-  /** m of the m^dim material points of a cell. */
-  unsigned int points_per_direction() const;
-  /** Divides points of finer cells than those they were made for. */
-  void divide_points();
   /** Begins a step on the new geometry with what the end of the last one left. */
   void start_step(const ContactMemory<dim> &memory, const std::vector<double> &multipliers,
                   const Energies &energies, const std::vector<double> &driving_forces);
