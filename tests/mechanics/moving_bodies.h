@@ -62,7 +62,14 @@ struct MovingBodies
   /** One step; the unknowns are built anew for the next. */
   BodyMotion<dim> step(const Increment<dim> &increment)
   {
-    const auto motions = move_level_sets(cut.bodies, *cut.fields, nodal(increment), options);
+    const Vector du = nodal(increment);
+    // u = x - X is of no use to the other motions, and costs.
+    const Vector u       = options.motion == IncrementMotion::reference_map
+                             ? nodal([&](const dealii::Point<dim> &x) {
+                           return dealii::Tensor<1, dim>(x - pulled_back(x));
+                         })
+                             : du;
+    const auto   motions = move_level_sets(cut.bodies, *cut.fields, du, u, options);
     cut.fields = std::make_unique<Fields<dim>>(cut.grid, *cut.level_set_nodes, cut.bodies, 0);
     EXPECT_EQ(motions.front().n_unconverged, 0u);
     EXPECT_EQ(motions.front().n_islands, 0u);

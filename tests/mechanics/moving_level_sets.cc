@@ -83,6 +83,22 @@ TEST(MovingLevelSets, FollowAffineMaps)
       }
 }
 
+TEST(MovingLevelSets, ReferenceMapTakesTheInitialContourAlong)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      MovingBodies<2> it(ellipse_text(degree, uniform_grid));
+      it.cut.bodies.front().initial_level_set = std::make_shared<const Lattice<2>>(it.lattice());
+      it.options.motion                       = IncrementMotion::reference_map;
+      const Tensor<1, 2> shift({0.01, -0.007});
+      for (unsigned int i = 0; i < 10; ++i)
+        it.step(affine<2>(turn<2>(numbers::PI / 25.), middle + double(i) * shift, shift));
+      const double error = it.contour_error(ellipse);
+      std::cout << "degree " << degree << ": contour error/h " << error << '\n';
+      EXPECT_LT(error, degree == 1 ? 1e-3 : 1e-4);
+    }
+}
+
 // Quadratic increments are in the space of degree 2, with hanging nodes too.
 TEST(MovingLevelSets, FollowQuadraticMapsOnAGradedGrid)
 {
