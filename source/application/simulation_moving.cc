@@ -1,6 +1,7 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/bodies/rigid_placement.h>
+#include <scree/mechanics/reference_map.h>
 #include <scree/points/migration.h>
 #include <scree/points/seeding.h>
 #include <scree/points/splitting.h>
@@ -21,9 +22,12 @@ Simulation<dim>::set_up_points()
   if (step_control.n_accepted() == 0)
     seed_points();
   else
-    send_to_owners<dim>(
-      state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
-      communicator);
+    {
+      send_to_owners<dim>(
+        state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
+        communicator);
+      divide_points();
+    }
   step_start = std::make_unique<StepStart<dim>>(*fields, bodies, state.points, parameters.moving);
 }
 
@@ -37,12 +41,31 @@ Simulation<dim>::seed_points()
   const PointSeeding<dim> seeding(*fields, *level_set_nodes, bodies, *quadrature, density);
   const unsigned int      n_internal
     = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
-  const unsigned int n_per_direction = parameters.moving.points_per_direction > 0
-                                         ? parameters.moving.points_per_direction
-                                         : parameters.degree + 1;
-  state.points                       = parameters.moving.places == PointPlaces::quadrature_points
-                                         ? seeding.at_quadrature_points(n_internal)
-                                         : seeding.on_sub_grid(n_per_direction, n_internal);
+  state.points = parameters.moving.places == PointPlaces::quadrature_points
+                   ? seeding.at_quadrature_points(n_internal)
+                   : seeding.on_sub_grid(points_per_direction(), n_internal);
+}
+
+template <int dim>
+unsigned int
+Simulation<dim>::points_per_direction() const
+{
+  return parameters.moving.points_per_direction > 0 ? parameters.moving.points_per_direction
+                                                    : parameters.degree + 1;
+}
+
+template <int dim>
+void
+Simulation<dim>::divide_points()
+{
+  // Points may spread a little first, but in a cell that was halved they are divided.
+  constexpr double    largest_spread = 1.4;
+  std::vector<double> cell_size;
+  for (const auto &location : locate_points(*fields, state.points))
+    cell_size.push_back(largest_spread
+                        * grid->cells()[fields->cells()[location.active_cell].grid_cell].size);
+  split_points(state.points, cell_size, points_per_direction(),
+               {parameters.degree, parameters.moving.support});
 }
 
 template <int dim>
