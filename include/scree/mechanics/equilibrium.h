@@ -113,7 +113,8 @@ public:
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
-  /** The |r| that round-off in A u, or on a moving geometry in A x, leaves at the last residual(). */
+  /** The |r| that round-off in A u, or on a moving geometry in A x, leaves at the last residual().
+   */
   double round_off() const;
 
   /** The rigid motions for the near null space, see near_null_space(). */
@@ -175,22 +176,23 @@ public:
   }
 
 private:
-  void   set_up_matrices();
-  void   set_up_artificial_mass();
-  void   set_zero_on_prescribed(Vector &r) const;
-  void   add_artificial_mass(Matrix &matrix) const;
-  void   eliminate_prescribed(Matrix &matrix) const;
-  void   reactions(Vector &result) const;
+  void set_up_matrices();
+  void set_up_artificial_mass();
+  void set_zero_on_prescribed(Vector &r) const;
+  void add_artificial_mass(Matrix &matrix) const;
+  void eliminate_prescribed(Matrix &matrix) const;
+  void reactions(Vector &result) const;
   /** Prescribed displacements and pressures that follow the surface: no dead loads. */
-  bool   works_by_traction(const BoundaryRegion<dim> &region) const;
+  bool works_by_traction(const BoundaryRegion<dim> &region) const;
   /** What the traction of such a region works on: prescribed values, displacements under pressure.
    */
-  dealii::Tensor<1, dim> driven_displacement(const BoundaryRegion<dim> &region, const unsigned int q,
-                                             const Vector &with_ghost_values) const;
-  double work_of_displacements(const Vector &u, const Vector &with_ghost_values);
-  double work_of_multipliers(const Vector &u);
-  void   remember_conditions(const Vector &with_ghost_values);
-  void   store_energies(const Vector &with_ghost_values);
+  dealii::Tensor<1, dim> driven_displacement(const BoundaryRegion<dim> &region,
+                                             const unsigned int         q,
+                                             const Vector              &with_ghost_values) const;
+  double                 work_of_displacements(const Vector &u, const Vector &with_ghost_values);
+  double                 work_of_multipliers(const Vector &u);
+  void                   remember_conditions(const Vector &with_ghost_values);
+  void                   store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
