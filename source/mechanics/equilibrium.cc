@@ -332,7 +332,7 @@ Equilibrium<dim>::round_off() const
   if (bulk.step_start() != nullptr)
     {
       // Displacements since the beginning are differences of positions.
-      const auto &[lower, upper] = fields.grid.box().get_boundary_points();
+      const auto [lower, upper] = fields.grid.box().get_boundary_points();
       of_unknowns += 1e-16 * std::max(lower.norm(), upper.norm()) * std::sqrt(fields.n_dofs());
     }
   return largest_stiffness * of_unknowns;

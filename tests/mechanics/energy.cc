@@ -95,7 +95,9 @@ sheared_blocks(const std::string &law, const std::string &path, const unsigned i
     {
       const auto result = model.step(double(i) / n_steps);
       EXPECT_TRUE(result.converged()) << result.message;
-      EXPECT_GE(model.equilibrium.energies().dissipation, last_dissipation);
+      // Never negative, up to round-off of works that cancel.
+      EXPECT_GE(model.equilibrium.energies().dissipation,
+                last_dissipation - 1e-12 * model.equilibrium.energies().external_work);
       last_dissipation = model.equilibrium.energies().dissipation;
     }
   return model.equilibrium.energies();
@@ -107,7 +109,7 @@ TEST(Energy, TiedBlocksBalance)
 {
   const Energies energies = sheared_blocks("set Law = tied", "0.02*t; 0.01*t", 2);
   EXPECT_LE(std::abs(energies.balance_error()), 1e-10 * energies.external_work);
-  EXPECT_EQ(energies.dissipation, 0.);
+  EXPECT_LE(std::abs(energies.dissipation), 1e-12 * energies.external_work);
 }
 
 TEST(Energy, FrictionBalances)
