@@ -18,7 +18,7 @@ namespace
 using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
 /** The weight of the jumps against the distances of the points. */
-constexpr double jump_weight = 1e-6;
+constexpr double jump_weight = 1e-3;
 
 /**
  * The nodes numbered one by one: node i is that of the unknowns dim i ... dim i + dim - 1, for the

@@ -205,16 +205,28 @@ TEST(FitOfDisplacement, ReproducesPolynomialsOfTheDegree)
 
 TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
 {
-  // A random field of the space, sampled at the points, comes back: steps without load find the
-  // displacement that the step before left.
+  // A smooth field of the space, sampled at the points, comes back up to a small part of its jumps:
+  // steps without load find the displacement that the step before left.
   for (const unsigned int degree : {1u, 2u})
     {
       StartedStep<2> plain(loaded_disc(degree), "Hencky",
                            [](const Point<2> &) { return Tensor<1, 2>(); });
-      const Vector   field = plain.random(0.01, 7);
-      const Vector   ghosted(plain.equilibrium.with_ghosts(field));
-      auto           points = plain.points;
-      const auto     cells  = locate_points(*plain.cut.fields, points);
+      Vector         field = zero_displacement(*plain.cut.fields);
+      for (unsigned int a = 0; a < plain.cut.fields->n_owned_cells(); ++a)
+        {
+          const auto &cell = plain.cut.grid.cells()[plain.cut.fields->cells()[a].grid_cell];
+          for (unsigned int i = 0; i < plain.cut.fields->basis.n_nodes; ++i)
+            {
+              const auto value
+                = wavy(cell.lower + cell.size * Tensor<1, 2>(plain.cut.fields->basis.node(i)));
+              for (unsigned int d = 0; d < 2; ++d)
+                field(plain.cut.fields->nodes(a)[i] + d) = value[d];
+            }
+        }
+      field.compress(VectorOperation::insert);
+      const Vector ghosted(plain.equilibrium.with_ghosts(field));
+      auto         points = plain.points;
+      const auto   cells  = locate_points(*plain.cut.fields, points);
       for (std::size_t p = 0; p < points.size(); ++p)
         points.reference_position[p]
           -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;
@@ -229,9 +241,9 @@ TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
           error += points.volume(p) * (fitted - exact).norm_square();
           norm += points.volume(p) * exact.norm_square();
         }
-      std::cout << "degree " << degree << ": random field of the space, relative L2 error "
+      std::cout << "degree " << degree << ": smooth field of the space, relative L2 error "
                 << std::sqrt(error / norm) << std::endl;
-      EXPECT_LT(std::sqrt(error / norm), 2e-3);
+      EXPECT_LT(std::sqrt(error / norm), degree == 1 ? 3e-3 : 5e-4);
     }
 }
 
