@@ -55,7 +55,10 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
-  contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift);
+  const bool moves = std::any_of(bodies.begin(), bodies.end(),
+                                 [](const Body<dim> &body) { return body.law != nullptr; });
+  contact_points
+    = contact_surface(fields, level_set_nodes, bodies, pairs, shift, moves || prediction);
   find_stencils(fields, bodies, prediction);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());

@@ -29,7 +29,7 @@ template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift)
+                const double shift, const bool nodal_normals)
 {
   const LagrangeBasis<dim>                   &basis = fields.basis;
   const BackgroundGrid<dim>                  &grid  = fields.grid;
@@ -62,7 +62,9 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
             continue;
           const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
           const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
-          const auto            gradients  = nodal_gradients<dim>(basis, cell, a, b);
+          std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> gradients;
+          if (nodal_normals)
+            gradients = nodal_gradients<dim>(basis, cell, a, b);
           for (unsigned int q = 0; q < surface.points.size(); ++q)
             {
               basis.evaluate_values(surface.points[q], shape.data());
@@ -73,8 +75,10 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
               if (gap > 2. * shift || surface.weights[q] < negligible)
                 continue;
               dealii::Tensor<1, dim> normal;
-              for (unsigned int i = 0; i < basis.n_nodes; ++i)
+              for (unsigned int i = 0; i < basis.n_nodes && nodal_normals; ++i)
                 normal += shape[i] * gradients[i];
+              if (!nodal_normals)
+                normal = surface.normals[q];
               surface_points.push_back(
                 {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
                  normal / normal.norm(), surface.weights[q], gap, cell.size});
@@ -87,7 +91,7 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
 #define SCREE_INSTANTIATE(dim)                                                       \
   template std::vector<ContactPoint<dim>> contact_surface(                           \
     const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
-    const std::vector<ContactPair> &, const double);
+    const std::vector<ContactPair> &, const double, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -33,10 +33,12 @@ struct ContactPoint
  * cells of this process (method.md section 8).
  *
  * @param shift bound on phi on the contact surface [L]
+ * @param nodal_normals interpolates normals from gradients at the nodes, for surfaces that slide;
+ *                      else they are those of the cut, which corners do not disturb
  */
 template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift);
+                const double shift, const bool nodal_normals);
 } // namespace scree
