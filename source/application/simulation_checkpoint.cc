@@ -95,8 +95,12 @@ Simulation<dim>::collect() const
       points.reserve(state.points.size() * state.points.n_values());
       for (std::size_t i = 0; i < state.points.size(); ++i)
         state.points.pack(i, points);
-      result.moving.points    = gather_arrays(points, communicator);
-      result.moving.step_end  = state.step_end;
+      result.moving.points   = gather_arrays(points, communicator);
+      result.moving.step_end = state.step_end;
+      auto &driven           = result.moving.step_end.driving.of_points;
+      driven.clear();
+      for (const auto &part : gather_arrays(state.step_end.driving.of_points, communicator))
+        driven.insert(driven.end(), part.begin(), part.end());
       result.moving.predictor = predictor;
       for (const Body<dim> &body : bodies)
         {
@@ -196,7 +200,9 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
       for (std::size_t i = 0; i < saved.points[p].size(); i += state.points.n_values())
         state.points.unpack(&saved.points[p][i]);
   state.step_end = saved.step_end;
-  predictor      = saved.predictor;
+  if (rank > 0)
+    state.step_end.driving.of_points.clear();
+  predictor = saved.predictor;
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const BodyPlace<dim> &place = saved.bodies[b];

@@ -206,7 +206,7 @@ Simulation<dim>::start_step()
   state.displacement.compress(dealii::VectorOperation::insert);
   state.contact = recall(*contact, end.contact);
   equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
-                          end.driving_forces);
+                          step_control.n_accepted() == 0 ? nullptr : &end.driving);
 }
 
 template <int dim>

@@ -39,7 +39,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
-    accepted_tractions.emplace_back(region.points.size());
+    accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
   set_up_artificial_mass();
 }

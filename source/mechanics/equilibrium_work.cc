@@ -25,28 +25,51 @@ Equilibrium<dim>::work_of_multipliers(const Vector &u)
 
 template <int dim>
 bool
-Equilibrium<dim>::works_by_traction(const BoundaryRegion<dim> &region) const
+Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &region) const
 {
-  const ConditionType type = region.condition->parameters.type;
-  return type == ConditionType::displacement
-         || (type == ConditionType::pressure && bulk.step_start() != nullptr);
-}
-
-template <int dim>
-dealii::Tensor<1, dim>
-Equilibrium<dim>::driven_displacement(const BoundaryRegion<dim> &region, const unsigned int q,
-                                      const Vector &with_ghost_values) const
-{
-  return region.condition->parameters.type == ConditionType::displacement
-           ? region.condition->vector(region.points[q].reference_position, time)
-           : boundary_terms.displacement_at(region, q, with_ghost_values);
+  return region.condition->parameters.type == ConditionType::pressure
+         && bulk.step_start() != nullptr;
 }
 
 template <int dim>
 double
-Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghost_values)
+Equilibrium<dim>::work_of_pressures(const Vector &with_ghost_values) const
 {
-  double work = work_of_multipliers(u);
+  double work = 0.;
+  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
+    {
+      const auto &region = boundary_terms.regions()[i];
+      for (unsigned int q = 0; q < accepted_tractions[i].size(); ++q)
+        {
+          const auto traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          const auto motion   = boundary_terms.displacement_at(region, q, with_ghost_values)
+                              - accepted_displacements[i][q];
+          work += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + traction) * motion;
+        }
+    }
+  return work;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const
+{
+  double work = 0.;
+  for (const auto &point : driven)
+    {
+      const auto &condition = *boundary_terms.regions()[point.region].condition;
+      work += point.force
+              * (condition.vector(point.reference_position, time)
+                 - condition.vector(point.reference_position, accepted_time));
+    }
+  return work;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::work_of_step(const Vector &u, const Vector &with_ghost_values)
+{
+  double work = work_of_multipliers(u) + work_of_pressures(with_ghost_values);
   Vector forces(internal_forces);
   reactions(forces);
   for (const auto &unknown : supports.unknowns())
@@ -58,21 +81,23 @@ Equilibrium<dim>::work_of_displacements(const Vector &u, const Vector &with_ghos
   forces += applied_forces;
   work += rigid.work(u, accepted_u, forces, accepted_reactions);
   accepted_reactions = forces;
-  for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
-    {
-      const auto &region = boundary_terms.regions()[i];
-      if (!works_by_traction(region))
-        continue;
-      for (unsigned int q = 0; q < region.points.size(); ++q)
-        {
-          const auto traction = boundary_terms.traction(region, q, with_ghost_values, time);
-          const auto motion
-            = driven_displacement(region, q, with_ghost_values) - accepted_displacements[i][q];
-          work += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + traction) * motion;
-        }
-    }
+  work += 0.5 * work_on_prescribed(accepted_driven);
   remember_conditions(with_ghost_values);
+  work += 0.5 * work_on_prescribed(accepted_driven);
   return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+}
+
+template <int dim>
+double
+Equilibrium<dim>::released_work(const Vector &u) const
+{
+  Vector motion(u);
+  motion -= accepted_u;
+  const double driven
+    = work_on_prescribed(accepted_driven) - work_on_prescribed(unbalanced->driven);
+  return 0.5
+         * (unbalanced->residual * motion - unbalanced->rigid * motion
+            + dealii::Utilities::MPI::sum(driven, fields.grid.communicator()));
 }
 
 template <int dim>
@@ -84,11 +109,15 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   // Unknown by unknown with condensed hanging nodes: loads have no entries there.
   Vector motion(u);
   motion -= accepted_u;
+  if (unbalanced)
+    energies.transfer -= released_work(u);
+  unbalanced.reset();
   accepted_dead_loads += dead_loads;
   energies.external_work
-    += 0.5 * (accepted_dead_loads * motion) + work_of_displacements(u, with_ghost_values);
+    += 0.5 * (accepted_dead_loads * motion) + work_of_step(u, with_ghost_values);
   accepted_dead_loads = dead_loads;
   accepted_u          = u;
+  accepted_time       = time;
 
   // The work of the tangential tractions by the trapezoidal rule that is not stored in them.
   double dissipated = 0.;
@@ -138,14 +167,31 @@ Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
 template <int dim>
 void
 Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                             const Energies &energies, const std::vector<double> &driving_forces)
+                             const Energies &energies, const DrivingForces<dim> *driving)
 {
   start_time = time;
-  take_as_accepted(time, u, history);
-  for (unsigned int i = 0; i < driving_forces.size(); ++i)
-    if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
-      accepted_reactions(fields.n_dofs() - fields.n_trailing() + i) = driving_forces[i];
-  accepted_reactions.compress(dealii::VectorOperation::insert);
+  Vector r(u);
+  take_as_accepted(time, u, history, r);
+  if (driving != nullptr)
+    {
+      unbalanced.emplace();
+      unbalanced->rigid.reinit(r);
+      for (unsigned int i = 0; i < driving->of_rigid.size(); ++i)
+        {
+          const DofIndex index = fields.n_dofs() - fields.n_trailing() + i;
+          if (!fields.owned().is_element(index))
+            continue;
+          // These rows of the reactions hold what is unbalanced.
+          r(index)                  = 0.;
+          unbalanced->rigid(index)  = accepted_reactions(index) - driving->of_rigid[i];
+          accepted_reactions(index) = driving->of_rigid[i];
+        }
+      for (Vector *vector : {&r, &unbalanced->rigid, &accepted_reactions})
+        vector->compress(dealii::VectorOperation::insert);
+      unbalanced->residual = r;
+      unbalanced->driven   = std::move(accepted_driven);
+      accepted_driven      = driving->of_points;
+    }
   current_energies = energies;
   store_energies(with_ghosts(accepted_u));
   current_energies.transfer += current_energies.stored() - energies.stored();
@@ -156,17 +202,18 @@ void
 Equilibrium<dim>::resume(const double time, const Vector &u, const ContactHistory<dim> &history,
                          const Energies &energies)
 {
-  take_as_accepted(time, u, history);
+  Vector r(u);
+  take_as_accepted(time, u, history, r);
   current_energies = energies;
 }
 
 template <int dim>
 void
 Equilibrium<dim>::take_as_accepted(const double time, const Vector &u,
-                                   const ContactHistory<dim> &history)
+                                   const ContactHistory<dim> &history, Vector &r)
 {
-  Vector r(u);
-  accepted_u = u;
+  accepted_u    = u;
+  accepted_time = time;
   set_time(time, accepted_u);
   residual(accepted_u, history, r);
   accepted_dead_loads = dead_loads;
@@ -180,14 +227,16 @@ Equilibrium<dim>::take_as_accepted(const double time, const Vector &u,
 }
 
 template <int dim>
-std::vector<double>
+DrivingForces<dim>
 Equilibrium<dim>::driving_forces() const
 {
-  std::vector<double> result(fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies));
-  for (unsigned int i = 0; i < result.size(); ++i)
+  DrivingForces<dim> result;
+  result.of_points = accepted_driven;
+  result.of_rigid.resize(fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies));
+  for (unsigned int i = 0; i < result.of_rigid.size(); ++i)
     if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
-      result[i] = accepted_reactions(fields.n_dofs() - fields.n_trailing() + i);
-  dealii::Utilities::MPI::sum(result, fields.grid.communicator(), result);
+      result.of_rigid[i] = accepted_reactions(fields.n_dofs() - fields.n_trailing() + i);
+  dealii::Utilities::MPI::sum(result.of_rigid, fields.grid.communicator(), result.of_rigid);
   return result;
 }
 
@@ -195,35 +244,48 @@ template <int dim>
 void
 Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
 {
+  accepted_driven.clear();
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
-      const auto &region = boundary_terms.regions()[i];
-      if (works_by_traction(region))
-        for (unsigned int q = 0; q < region.points.size(); ++q)
-          {
-            accepted_tractions[i][q] = boundary_terms.traction(region, q, with_ghost_values, time);
-            accepted_displacements[i][q] = driven_displacement(region, q, with_ghost_values);
-          }
+      const auto &region      = boundary_terms.regions()[i];
+      const bool  is_pressure = is_following_pressure(region);
+      if (!is_pressure && region.condition->parameters.type != ConditionType::displacement)
+        continue;
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto &point    = region.points[q];
+          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          if (!is_pressure)
+            accepted_driven.push_back({i, point.reference_position, point.weight * traction});
+          else
+            {
+              accepted_tractions[i][q] = traction;
+              accepted_displacements[i][q]
+                = boundary_terms.displacement_at(region, q, with_ghost_values);
+            }
+        }
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                          \
-  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                \
-  template bool   Equilibrium<dim>::works_by_traction(const BoundaryRegion<dim> &) const;               \
-  template dealii::Tensor<1, dim> Equilibrium<dim>::driven_displacement(                                \
-    const BoundaryRegion<dim> &, const unsigned int, const Vector &) const;                             \
-  template double Equilibrium<dim>::work_of_displacements(const Vector &, const Vector &);              \
-  template void   Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);                \
-  template void   Equilibrium<dim>::store_energies(const Vector &);                                     \
-  template void   Equilibrium<dim>::start_step(const double, const Vector &,                            \
-                                               const ContactHistory<dim> &, const Energies &,           \
-                                               const std::vector<double> &);                            \
-  template std::vector<double> Equilibrium<dim>::driving_forces() const;                                \
-  template void                Equilibrium<dim>::resume(const double, const Vector &,                   \
-                                                        const ContactHistory<dim> &, const Energies &); \
-  template void                Equilibrium<dim>::take_as_accepted(const double, const Vector &,         \
-                                                                  const ContactHistory<dim> &);         \
-  template void                Equilibrium<dim>::remember_conditions(const Vector &);
+#define SCREE_INSTANTIATE(dim)                                                                            \
+  template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                  \
+  template bool   Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &) const;             \
+  template double Equilibrium<dim>::work_of_pressures(const Vector &) const;                              \
+  template double Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &)             \
+    const;                                                                                                \
+  template double             Equilibrium<dim>::work_of_step(const Vector &, const Vector &);             \
+  template double             Equilibrium<dim>::released_work(const Vector &) const;                      \
+  template void               Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
+  template void               Equilibrium<dim>::store_energies(const Vector &);                           \
+  template void               Equilibrium<dim>::start_step(const double, const Vector &,                  \
+                                                           const ContactHistory<dim> &, const Energies &, \
+                                                           const DrivingForces<dim> *);                   \
+  template DrivingForces<dim> Equilibrium<dim>::driving_forces() const;                                   \
+  template void               Equilibrium<dim>::resume(const double, const Vector &,                      \
+                                                       const ContactHistory<dim> &, const Energies &);    \
+  template void               Equilibrium<dim>::take_as_accepted(const double, const Vector &,            \
+                                                                 const ContactHistory<dim> &, Vector &);  \
+  template void               Equilibrium<dim>::remember_conditions(const Vector &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -5,6 +5,7 @@
 #include <scree/mechanics/rigid_bodies.h>
 #include <scree/state/state.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,17 +35,17 @@ public:
    * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
    * and multipliers.
    *
-   * @param energies       at the end of the step before: what the motion of the geometry changed in
-   *                       them is Energies::transfer
-   * @param driving_forces there, see driving_forces(); empty at the start of a run. The work of
-   *                       rigid bodies goes on from them: the forces at u = 0 are those of new
-   *                       contact points that are not in equilibrium yet.
+   * @param energies at the end of the step before: what the motion of the geometry changed in them
+   *                 is Energies::transfer
+   * @param driving  there, null at the start of a run. External work goes on from these forces. The
+   *                 fitted state at u = 0 is not in equilibrium; what its unbalanced forces release
+   *                 in the step also is Energies::transfer.
    */
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                  const Energies &energies, const std::vector<double> &driving_forces);
+                  const Energies &energies, const DrivingForces<dim> *driving);
 
-  /** What drives the rigid bodies at the accepted state, component by component (collective). */
-  std::vector<double> driving_forces() const;
+  /** What drives bodies at the accepted state (collective). */
+  DrivingForces<dim> driving_forces() const;
 
   /** Goes on after the accepted state `u` of a fixed geometry, with its time, history, energies. */
   void resume(const double time, const Vector &u, const ContactHistory<dim> &history,
@@ -161,18 +162,19 @@ private:
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
   void reactions(Vector &result) const;
-  /** Prescribed displacements and pressures that follow the surface: no dead loads. */
-  bool works_by_traction(const BoundaryRegion<dim> &region) const;
-  /** What the traction of such a region works on: prescribed values, displacements under pressure.
-   */
-  dealii::Tensor<1, dim> driven_displacement(const BoundaryRegion<dim> &region,
-                                             const unsigned int         q,
-                                             const Vector              &with_ghost_values) const;
-  double                 work_of_displacements(const Vector &u, const Vector &with_ghost_values);
-  double                 work_of_multipliers(const Vector &u);
-  void                   remember_conditions(const Vector &with_ghost_values);
-  void take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
-  void store_energies(const Vector &with_ghost_values);
+  /** External work of the step to `u`, but that of dead loads. */
+  double work_of_step(const Vector &u, const Vector &with_ghost_values);
+  double work_of_multipliers(const Vector &u);
+  /** Of pressures that follow the surface. */
+  double work_of_pressures(const Vector &with_ghost_values) const;
+  /** Of constant forces on what is prescribed, from the accepted time to now. */
+  double work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const;
+  /** What the unbalanced forces of the start of the step release on the way to `u`. */
+  double released_work(const Vector &u) const;
+  bool   is_following_pressure(const BoundaryRegion<dim> &region) const;
+  void   remember_conditions(const Vector &with_ghost_values);
+  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
+  void   store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
@@ -195,15 +197,26 @@ private:
   Vector ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet ghosted_dofs;
   double           time              = 0.;
+  double           accepted_time     = 0.;
   double           start_time        = 0.; //!< of the step on a moving geometry
   double           largest_stiffness = 0.; //!< largest diagonal entry of A
   double           displacement_norm = 0.; //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
-  Energies current_energies;
-  Vector   accepted_u, accepted_dead_loads, accepted_reactions;
-  Vector   accepted_prescribed; //!< right-hand sides of the multiplier rows
-  /** Tractions and displacements at the points of the regions that works_by_traction() names. */
+  Energies                      current_energies;
+  Vector                        accepted_u, accepted_dead_loads, accepted_reactions;
+  Vector                        accepted_prescribed; //!< right-hand sides of the multiplier rows
+  std::vector<DrivenPoint<dim>> accepted_driven;     //!< forces on what is prescribed
+  /** Tractions and displacements at the points of following pressures, else empty. */
   std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
+
+  /** What is unbalanced at the start of a step on a moving geometry; not of its first one. */
+  struct Unbalanced
+  {
+    Vector                        residual; //!< of deformable bodies
+    Vector                        rigid;    //!< forces on rigid bodies, less those before
+    std::vector<DrivenPoint<dim>> driven;   //!< forces of the fitted state
+  };
+  std::optional<Unbalanced> unbalanced;
 };
 } // namespace scree

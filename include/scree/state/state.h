@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_memory.h>
 #include <scree/points/material_points.h>
+#include <scree/state/driving_forces.h>
 #include <scree/state/energies.h>
 
 namespace scree
@@ -13,12 +14,12 @@ struct StepEnd
   ContactMemory<dim>  contact;
   std::vector<double> multipliers;
   Energies            energies;
-  std::vector<double> driving_forces; //!< of rigid bodies, see Equilibrium::driving_forces()
+  DrivingForces<dim>  driving;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &contact &multipliers &energies &driving_forces;
+    archive &contact &multipliers &energies &driving;
   }
 };
 
