@@ -89,15 +89,18 @@ Equilibrium<dim>::work_of_step(const Vector &u, const Vector &with_ghost_values)
 
 template <int dim>
 double
-Equilibrium<dim>::released_work(const Vector &u) const
+Equilibrium<dim>::released_work(const Vector &u, const ContactHistory<dim> &old_history) const
 {
   Vector motion(u);
   motion -= accepted_u;
-  const double driven
-    = work_on_prescribed(accepted_driven) - work_on_prescribed(unbalanced->driven);
+  double work = work_on_prescribed(accepted_driven) - work_on_prescribed(unbalanced->driven);
+  // The law has cut tractions at u = 0, dissipation goes on from the remembered ones.
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    work += contact.points()[i].weight * (old_history.tau[i] - unbalanced->tau[i])
+            * (contact.jumps()[i] - old_history.jump[i]);
   return 0.5
          * (unbalanced->residual * motion - unbalanced->rigid * motion
-            + dealii::Utilities::MPI::sum(driven, fields.grid.communicator()));
+            + dealii::Utilities::MPI::sum(work, fields.grid.communicator()));
 }
 
 template <int dim>
@@ -110,7 +113,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   Vector motion(u);
   motion -= accepted_u;
   if (unbalanced)
-    energies.transfer -= released_work(u);
+    energies.transfer -= released_work(u, old_history);
   unbalanced.reset();
   accepted_dead_loads += dead_loads;
   energies.external_work
@@ -165,6 +168,13 @@ Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
 }
 
 template <int dim>
+unsigned int
+Equilibrium<dim>::n_rigid_unknowns() const
+{
+  return fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies);
+}
+
+template <int dim>
 void
 Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
                              const Energies &energies, const DrivingForces<dim> *driving)
@@ -172,27 +182,39 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
   start_time = time;
   Vector r(u);
   take_as_accepted(time, u, history, r);
-  if (driving != nullptr)
+  DrivingForces<dim> unloaded;
+  if (driving == nullptr)
     {
-      unbalanced.emplace();
-      unbalanced->rigid.reinit(r);
-      for (unsigned int i = 0; i < driving->of_rigid.size(); ++i)
-        {
-          const DofIndex index = fields.n_dofs() - fields.n_trailing() + i;
-          if (!fields.owned().is_element(index))
-            continue;
-          // These rows of the reactions hold what is unbalanced.
-          r(index)                  = 0.;
-          unbalanced->rigid(index)  = accepted_reactions(index) - driving->of_rigid[i];
-          accepted_reactions(index) = driving->of_rigid[i];
-        }
-      for (Vector *vector : {&r, &unbalanced->rigid, &accepted_reactions})
-        vector->compress(dealii::VectorOperation::insert);
-      unbalanced->residual = r;
-      unbalanced->driven   = std::move(accepted_driven);
-      accepted_driven      = driving->of_points;
+      // Loads grow from zero in the first step. Bodies may overlap: only contact is unbalanced.
+      unloaded.of_rigid.assign(n_rigid_unknowns(), 0.);
+      driving             = &unloaded;
+      accepted_dead_loads = 0.;
+      accepted_reactions.equ(-1., contact_forces);
+      r = contact_forces;
+      set_zero_on_prescribed(r);
+      for (auto &tractions : accepted_tractions)
+        tractions.assign(tractions.size(), dealii::Tensor<1, dim>());
     }
-  current_energies = energies;
+  unbalanced.emplace();
+  unbalanced->rigid.reinit(r);
+  for (unsigned int i = 0; i < n_rigid_unknowns(); ++i)
+    {
+      const DofIndex index = fields.n_dofs() - n_rigid_unknowns() + i;
+      if (!fields.owned().is_element(index))
+        continue;
+      // These rows of the reactions hold what is unbalanced.
+      r(index)                  = 0.;
+      unbalanced->rigid(index)  = accepted_reactions(index) - driving->of_rigid[i];
+      accepted_reactions(index) = driving->of_rigid[i];
+    }
+  for (Vector *vector : {&r, &unbalanced->rigid, &accepted_reactions})
+    vector->compress(dealii::VectorOperation::insert);
+  unbalanced->residual = r;
+  for (const auto &response : contact.responses())
+    unbalanced->tau.push_back(response.tau);
+  unbalanced->driven = driving == &unloaded ? driving->of_points : std::move(accepted_driven);
+  accepted_driven    = driving->of_points;
+  current_energies   = energies;
   store_energies(with_ghosts(accepted_u));
   current_energies.transfer += current_energies.stored() - energies.stored();
 }
@@ -232,10 +254,13 @@ Equilibrium<dim>::driving_forces() const
 {
   DrivingForces<dim> result;
   result.of_points = accepted_driven;
-  result.of_rigid.resize(fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies));
-  for (unsigned int i = 0; i < result.of_rigid.size(); ++i)
-    if (fields.owned().is_element(fields.n_dofs() - fields.n_trailing() + i))
-      result.of_rigid[i] = accepted_reactions(fields.n_dofs() - fields.n_trailing() + i);
+  result.of_rigid.resize(n_rigid_unknowns());
+  for (unsigned int i = 0; i < n_rigid_unknowns(); ++i)
+    {
+      const DofIndex index = fields.n_dofs() - n_rigid_unknowns() + i;
+      if (fields.owned().is_element(index))
+        result.of_rigid[i] = accepted_reactions(index);
+    }
   dealii::Utilities::MPI::sum(result.of_rigid, fields.grid.communicator(), result.of_rigid);
   return result;
 }
@@ -273,10 +298,12 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
   template double Equilibrium<dim>::work_of_pressures(const Vector &) const;                              \
   template double Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &)             \
     const;                                                                                                \
-  template double             Equilibrium<dim>::work_of_step(const Vector &, const Vector &);             \
-  template double             Equilibrium<dim>::released_work(const Vector &) const;                      \
+  template double Equilibrium<dim>::work_of_step(const Vector &, const Vector &);                         \
+  template double Equilibrium<dim>::released_work(const Vector &, const ContactHistory<dim> &)            \
+    const;                                                                                                \
   template void               Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
   template void               Equilibrium<dim>::store_energies(const Vector &);                           \
+  template unsigned int       Equilibrium<dim>::n_rigid_unknowns() const;                                 \
   template void               Equilibrium<dim>::start_step(const double, const Vector &,                  \
                                                            const ContactHistory<dim> &, const Energies &, \
                                                            const DrivingForces<dim> *);                   \

@@ -37,9 +37,9 @@ public:
    *
    * @param energies at the end of the step before: what the motion of the geometry changed in them
    *                 is Energies::transfer
-   * @param driving  there, null at the start of a run. External work goes on from these forces. The
-   *                 fitted state at u = 0 is not in equilibrium; what its unbalanced forces release
-   *                 in the step also is Energies::transfer.
+   * @param driving  there, null at the start of a run, when nothing is loaded. External work goes
+   * on from these forces. The fitted state at u = 0 is not in equilibrium; what its unbalanced
+   * forces release in the step also is Energies::transfer.
    */
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
                   const Energies &energies, const DrivingForces<dim> *driving);
@@ -156,12 +156,13 @@ public:
   }
 
 private:
-  void set_up_matrices();
-  void set_up_artificial_mass();
-  void set_zero_on_prescribed(Vector &r) const;
-  void add_artificial_mass(Matrix &matrix) const;
-  void eliminate_prescribed(Matrix &matrix) const;
-  void reactions(Vector &result) const;
+  void         set_up_matrices();
+  void         set_up_artificial_mass();
+  void         set_zero_on_prescribed(Vector &r) const;
+  void         add_artificial_mass(Matrix &matrix) const;
+  void         eliminate_prescribed(Matrix &matrix) const;
+  void         reactions(Vector &result) const;
+  unsigned int n_rigid_unknowns() const;
   /** External work of the step to `u`, but that of dead loads. */
   double work_of_step(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);
@@ -170,10 +171,11 @@ private:
   /** Of constant forces on what is prescribed, from the accepted time to now. */
   double work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const;
   /** What the unbalanced forces of the start of the step release on the way to `u`. */
-  double released_work(const Vector &u) const;
+  double released_work(const Vector &u, const ContactHistory<dim> &old_history) const;
   bool   is_following_pressure(const BoundaryRegion<dim> &region) const;
   void   remember_conditions(const Vector &with_ghost_values);
-  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history);
+  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history,
+                          Vector &r);
   void   store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
@@ -210,12 +212,13 @@ private:
   /** Tractions and displacements at the points of following pressures, else empty. */
   std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
 
-  /** What is unbalanced at the start of a step on a moving geometry; not of its first one. */
+  /** What is unbalanced at the start of a step on a moving geometry. */
   struct Unbalanced
   {
-    Vector                        residual; //!< of deformable bodies
-    Vector                        rigid;    //!< forces on rigid bodies, less those before
-    std::vector<DrivenPoint<dim>> driven;   //!< forces of the fitted state
+    Vector                              residual; //!< of deformable bodies
+    Vector                              rigid;    //!< forces on rigid bodies, less those before
+    std::vector<DrivenPoint<dim>>       driven;   //!< forces of the fitted state
+    std::vector<dealii::Tensor<1, dim>> tau;      //!< of the contact points
   };
   std::optional<Unbalanced> unbalanced;
 };
