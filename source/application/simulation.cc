@@ -107,6 +107,16 @@ Simulation<dim>::discretise()
     boundary_terms = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature,
                                                           bodies, step_start.get());
   }
+  set_up_equilibrium();
+}
+
+template <int dim>
+void
+Simulation<dim>::set_up_equilibrium()
+{
+  // What refers to the contact points ends before them.
+  condensed_solver.reset();
+  equilibrium.reset();
   {
     const Timings::Scope scope(timings, "contact search");
     contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
@@ -194,6 +204,12 @@ Simulation<dim>::run()
                 "support the bodies that are not held");
         log.line("  the step is tried again with "
                  + short_number(100. * step_control.step_fraction()) + "% of its length");
+        if (is_moving())
+          {
+            // Contact points expect the slip of the step.
+            set_up_equilibrium();
+            start_step();
+          }
       }
   report_end(wall.wall_time());
 }

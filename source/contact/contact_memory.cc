@@ -222,8 +222,8 @@ gathered_rows(const ContactPoints<dim> &contact, const MPI_Comm communicator)
       };
       add(point.position);
       row.insert(row.end(), {point.weight, point.cell_size, response.pressure});
-      add(point.normal);
-      add(response.tau);
+      add(point.start_normal);
+      add(turned(response.tau, point.normal, point.start_normal));
       add(contact.mean_displacements()[i]);
       rows.push_back(row);
     }

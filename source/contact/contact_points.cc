@@ -26,22 +26,6 @@ modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
   return 2. / (compliance(a) + compliance(b));
 }
 
-/** The tangential jump P d that is expected of the coming step, at most a cell. */
-template <int dim>
-dealii::Tensor<1, dim>
-expected_slide(const ContactPoint<dim> &point, const ContactPair &pair,
-               const typename ContactPoints<dim>::Prediction &prediction)
-{
-  if (!prediction)
-    return {};
-  dealii::Tensor<1, dim> slide
-    = prediction(pair.b, point.position) - prediction(pair.a, point.position);
-  slide -= (slide * point.normal) * point.normal;
-  const double length = slide.norm();
-  if (length > point.cell_size)
-    slide *= point.cell_size / length;
-  return slide;
-}
 } // namespace
 
 template <int dim>
@@ -103,9 +87,17 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
   std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      const ContactPair           &pair  = contact_pairs[contact_points[i].pair];
-      const dealii::Point<dim>    &x     = contact_points[i].position;
-      const dealii::Tensor<1, dim> slide = expected_slide(contact_points[i], pair, prediction);
+      ContactPoint<dim>        &point = contact_points[i];
+      const ContactPair        &pair  = contact_pairs[point.pair];
+      const dealii::Point<dim> &x     = point.position;
+      dealii::Tensor<1, dim>    slide;
+      if (prediction)
+        {
+          const ExpectedSlide<dim> expected = expected_slide(point, pair, prediction);
+          point.initial_gap += (point.normal - expected.normal) * expected.jump;
+          point.normal = expected.normal;
+          slide        = expected.slide;
+        }
       for (const auto &[body, start] :
            {std::make_pair(pair.a, x + 0.5 * slide), std::make_pair(pair.b, x - 0.5 * slide)})
         if (!bodies[body].is_rigid())

@@ -81,7 +81,8 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
                 normal = surface.normals[q];
               surface_points.push_back(
                 {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
-                 normal / normal.norm(), surface.weights[q], gap, cell.size});
+                 normal / normal.norm(), surface.weights[q], gap, cell.size,
+                 normal / normal.norm()});
             }
         }
     }

@@ -92,6 +92,8 @@ private:
   double lattice_margin() const;
   /** Grid, fields, quadrature, contact points and equations of the present geometry. */
   void discretise();
+  /** Contact points and equations. */
+  void set_up_equilibrium();
   bool is_moving() const
   {
     return parameters.moving.is_moving;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_law.h>
-#include <scree/contact/contact_surface.h>
+#include <scree/contact/expected_slide.h>
 #include <scree/solver/condensed_solver.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -9,7 +9,6 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +36,10 @@ struct ContactHistory
  * On bodies that slide, x_a and x_b are the points that are expected to meet in the middle of the
  * step: with the jump d that a prediction tells, P = I - n n^T, they are the projections of
  * x + P d/2 and x - P d/2. Then g_0 + n.[[u]] is the gap at the end to second order in d; with
- * d = 0 it misses kappa d^2/2 for surfaces of curvature kappa that touch all along.
+ * d = 0 it misses kappa d^2/2 for surfaces of curvature kappa that touch all along. Tractions act
+ * where the bodies are at the end, with normal n': the gap is g_0 + n.d + n'.([[u]] - d), so that
+ * g_0 + (n - n').d is stored as the initial gap. With n the force of a dragged tool would be wrong
+ * by kappa d/2 times its normal force.
  *
  * Consecutive points with the same nodes form a group, so that a group is one dense block of the
  * matrix.
@@ -48,9 +50,7 @@ class ContactPoints
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  /** The increment that is expected of a body at a point in the coming step [L]. */
-  using Prediction
-    = std::function<dealii::Tensor<1, dim>(unsigned int, const dealii::Point<dim> &)>;
+  using Prediction = IncrementPrediction<dim>;
 
   /**
    * @param shift bound on phi on the contact surface [L]

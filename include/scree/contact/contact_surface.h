@@ -22,10 +22,11 @@ struct ContactPoint
 {
   unsigned int           pair;
   dealii::Point<dim>     position;
-  dealii::Tensor<1, dim> normal;      //!< from a to b
-  double                 weight;      //!< length or area
-  double                 initial_gap; //!< g_0 = phi_a + phi_b of degree k
-  double                 cell_size;   //!< h of the penalties
+  dealii::Tensor<1, dim> normal;            //!< from a to b, in which gap and pressure are counted
+  double                 weight;            //!< length or area
+  double                 initial_gap;       //!< g_0 = phi_a + phi_b of degree k
+  double                 cell_size;         //!< h of the penalties
+  dealii::Tensor<1, dim> start_normal = {}; //!< of the surface at the start of a step
 };
 
 /**
