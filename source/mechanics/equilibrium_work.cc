@@ -57,10 +57,11 @@ Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven
   double work = 0.;
   for (const auto &point : driven)
     {
-      const auto &condition = *boundary_terms.regions()[point.region].condition;
-      work += point.force
-              * (condition.vector(point.reference_position, time)
-                 - condition.vector(point.reference_position, accepted_time));
+      const auto            &condition = *boundary_terms.regions()[point.region].condition;
+      dealii::Tensor<1, dim> motion    = condition.vector(point.reference_position, time);
+      if (!is_unloaded)
+        motion -= condition.vector(point.reference_position, accepted_time);
+      work += point.force * motion;
     }
   return work;
 }
@@ -121,6 +122,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   accepted_dead_loads = dead_loads;
   accepted_u          = u;
   accepted_time       = time;
+  is_unloaded         = false;
 
   // The work of the tangential tractions by the trapezoidal rule that is not stored in them.
   double dissipated = 0.;
@@ -188,6 +190,7 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
       // Loads grow from zero in the first step. Bodies may overlap: only contact is unbalanced.
       unloaded.of_rigid.assign(n_rigid_unknowns(), 0.);
       driving             = &unloaded;
+      is_unloaded         = true;
       accepted_dead_loads = 0.;
       accepted_reactions.equ(-1., contact_forces);
       r = contact_forces;
@@ -236,6 +239,7 @@ Equilibrium<dim>::take_as_accepted(const double time, const Vector &u,
 {
   accepted_u    = u;
   accepted_time = time;
+  is_unloaded   = false;
   set_time(time, accepted_u);
   residual(accepted_u, history, r);
   accepted_dead_loads = dead_loads;

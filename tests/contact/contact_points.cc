@@ -104,9 +104,15 @@ TEST(ContactPoints, JumpOfLinearFields3D)
                                 {"upper", half_space_text("0, 0, 0.063", "-0.1, -0.2, -1")}})));
 }
 
-/** The largest change of the gap when a disc turns by `angle` in a hole of its size. */
-double
-gap_of_turned_disc(const unsigned int level, const double angle, const bool is_predicted)
+/** What happens at most when a disc turns in a hole of its size. */
+struct TurnedDisc
+{
+  double gap_change = 0.;
+  double normal     = 0.; //!< error of the normals of the places where points meet
+};
+
+TurnedDisc
+turned_disc(const unsigned int level, const double angle, const bool is_predicted)
 {
   const CutBodies<2> model(
     grid_text("-2, -2", "2, 2", "1, 1", level) + degree_text(2)
@@ -122,20 +128,32 @@ gap_of_turned_disc(const unsigned int level, const double angle, const bool is_p
                         is_predicted ? typename ContactPoints<2>::Prediction(turn)
                                      : typename ContactPoints<2>::Prediction());
   contact.evaluate(displacement<2>(model, contact, turn), contact.initial_history());
-  double largest = 0.;
+  TurnedDisc result;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
-    largest = std::max(largest, std::abs(contact.gap(i) - contact.points()[i].initial_gap));
-  return largest;
+    {
+      const auto         &point = contact.points()[i];
+      const Tensor<1, 2> &n     = point.start_normal;
+      const double        c = std::cos(angle / 2.), s = std::sin(angle / 2.);
+      const Tensor<1, 2>  at_end({c * n[0] - s * n[1], s * n[0] + c * n[1]});
+      result.gap_change = std::max(result.gap_change, std::abs(contact.gap(i) - 0.001));
+      result.normal     = std::max(result.normal, (point.normal - at_end).norm());
+    }
+  return result;
 }
 
 TEST(ContactPoints, SlidingOfCurvedSurfacesKeepsTheGap)
 {
   // Surfaces that touch all along slide by s on a radius 1: the gap stays, n.[[u]] is s^2/2.
-  const double s = 0.04, plain = gap_of_turned_disc(6, s, false),
-               predicted = gap_of_turned_disc(6, s, true);
-  std::cout << "change of the gap: " << plain << ", predicted " << predicted << '\n';
-  EXPECT_NEAR(plain, s * s / 2., 0.1 * s * s);
-  EXPECT_LT(predicted, 0.05 * plain);
+  // They meet half way, where the normal has turned by s/2.
+  const double     s     = 0.04;
+  const TurnedDisc plain = turned_disc(6, s, false), predicted = turned_disc(6, s, true);
+  std::cout << "change of the gap: " << plain.gap_change << ", predicted " << predicted.gap_change
+            << "; error of the normal: " << plain.normal << ", predicted " << predicted.normal
+            << '\n';
+  EXPECT_NEAR(plain.gap_change, s * s / 2., 0.1 * s * s);
+  EXPECT_LT(predicted.gap_change, 0.05 * plain.gap_change);
+  EXPECT_NEAR(plain.normal, s / 2., 1e-4);
+  EXPECT_LT(predicted.normal, 0.01 * plain.normal);
 }
 
 TEST(ContactPoints, SurfaceOnGridLineIsCountedOnce)

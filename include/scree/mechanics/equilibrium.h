@@ -200,9 +200,10 @@ private:
   dealii::IndexSet ghosted_dofs;
   double           time              = 0.;
   double           accepted_time     = 0.;
-  double           start_time        = 0.; //!< of the step on a moving geometry
-  double           largest_stiffness = 0.; //!< largest diagonal entry of A
-  double           displacement_norm = 0.; //!< |u| of the last residual()
+  bool             is_unloaded       = true; //!< nothing was prescribed at the accepted state
+  double           start_time        = 0.;   //!< of the step on a moving geometry
+  double           largest_stiffness = 0.;   //!< largest diagonal entry of A
+  double           displacement_norm = 0.;   //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies                      current_energies;
