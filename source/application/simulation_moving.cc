@@ -205,6 +205,7 @@ Simulation<dim>::start_step()
       state.displacement(fields->multiplier(i)) = end.multipliers[i];
   state.displacement.compress(dealii::VectorOperation::insert);
   state.contact = recall(*contact, end.contact);
+  keep_resultants(*contact, end.contact, state.contact, communicator);
   equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
                           step_control.n_accepted() == 0 ? nullptr : &end.driving);
 }

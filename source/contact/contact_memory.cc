@@ -380,6 +380,30 @@ transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &
   return result;
 }
 
+template <int dim>
+void
+keep_resultants(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
+                ContactHistory<dim> &history, const MPI_Comm communicator)
+{
+  constexpr double    largest_change = 0.1;
+  const auto          forces         = transferred_forces(contact, memory, history, communicator);
+  std::vector<double> sizes(forces.size());
+  for (std::size_t i = 0; i < contact.points().size(); ++i)
+    sizes[contact.points()[i].pair] += contact.points()[i].weight * history.tau[i].norm();
+  Utilities::MPI::sum(sizes, communicator, sizes);
+  for (std::size_t i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim>     &point   = contact.points()[i];
+      const TransferredForce<dim> &force   = forces[point.pair];
+      const double                 size    = sizes[point.pair];
+      const Tensor<1, dim>         missing = force.tangential_before - force.tangential_after;
+      if (!(missing.norm() < largest_change * size))
+        continue;
+      history.tau[i]
+        += history.tau[i].norm() / size * (missing - (missing * point.normal) * point.normal);
+    }
+}
+
 #define SCREE_INSTANTIATE(dim)                                                                 \
   template ContactMemory<dim>  remember(const ContactPoints<dim> &, const MPI_Comm);           \
   template ContactMemory<dim>  moved(const ContactMemory<dim> &,                               \
@@ -388,6 +412,8 @@ transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &
                                       const std::vector<ContactPair> &,                        \
                                       const ContactMemory<dim> &);                             \
   template ContactHistory<dim> recall(const ContactPoints<dim> &, const ContactMemory<dim> &); \
+  template void keep_resultants(const ContactPoints<dim> &, const ContactMemory<dim> &,        \
+                                ContactHistory<dim> &, const MPI_Comm);                        \
   template std::vector<TransferredForce<dim>> transferred_forces(                              \
     const ContactPoints<dim> &, const ContactMemory<dim> &, const ContactHistory<dim> &,       \
     const MPI_Comm);

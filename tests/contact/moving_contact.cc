@@ -174,6 +174,48 @@ TEST(MovingContactMPI, NullStepChangesNothing)
 
 template <int dim>
 void
+check_resultants(const unsigned int degree, const unsigned int other_degree)
+{
+  const CutBodies<dim> model(two_balls<dim>(degree)), other(two_balls<dim>(other_degree));
+  const auto           memory  = remember(evaluated(model), MPI_COMM_WORLD);
+  const auto           contact = contact_points(other, ContactLaw::stick);
+  auto                 history = recall(contact, memory);
+  const auto           missing = [&](const ContactMemory<dim> &of) {
+    const auto force = transferred_forces(contact, of, history, MPI_COMM_WORLD)[0];
+    return (force.tangential_after - force.tangential_before).norm()
+           / force.tangential_before.norm();
+  };
+  const double before = missing(memory);
+  const auto   plain  = history;
+  keep_resultants(contact, memory, history, MPI_COMM_WORLD);
+  std::cout << "missing of the force: " << before << ", then " << missing(memory) << '\n';
+  EXPECT_GT(before, 1e-6);
+  EXPECT_LT(missing(memory), 0.05 * before);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      EXPECT_LE(std::abs(history.tau[i] * contact.points()[i].normal),
+                1e-12 * history.tau[i].norm());
+      EXPECT_LE((history.tau[i] - plain.tau[i]).norm(), 2. * before * plain.tau[i].norm());
+    }
+
+  // A surface that has lost a half of its force is another one.
+  auto doubled = memory;
+  for (auto &tau : doubled.tau)
+    tau *= 2.;
+  history = plain;
+  keep_resultants(contact, doubled, history, MPI_COMM_WORLD);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    EXPECT_EQ(history.tau[i], plain.tau[i]);
+}
+
+TEST(MovingContactMPI, ExchangeOfPointsKeepsResultants)
+{
+  check_resultants<2>(1, 2);
+  check_resultants<3>(1, 2);
+}
+
+template <int dim>
+void
 compare(const ContactMemory<dim> &one, const ContactMemory<dim> &other, const double tolerance)
 {
   ASSERT_EQ(one.size(), other.size());

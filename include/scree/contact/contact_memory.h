@@ -91,4 +91,13 @@ template <int dim>
 std::vector<TransferredForce<dim>>
 transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
                    const ContactHistory<dim> &history, const MPI_Comm communicator);
+
+/**
+ * Gives each pair of `contact` the resultant of the tangential tractions that is remembered: with D
+ * what is missing after recall() and S = int |tau|, tau <- tau + |tau| P D/S, P = I - n n^T, where
+ * |D| < S/10; else the surface has changed and tau stays. Collective.
+ */
+template <int dim>
+void keep_resultants(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
+                     ContactHistory<dim> &history, const MPI_Comm communicator);
 } // namespace scree
