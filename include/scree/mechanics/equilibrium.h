@@ -176,7 +176,8 @@ private:
   void   remember_conditions(const Vector &with_ghost_values);
   void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history,
                           Vector &r);
-  void   store_energies(const Vector &with_ghost_values);
+  /** Returns the plastic dissipation since the start of the step. */
+  double store_energies(const Vector &with_ghost_values);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
