@@ -12,9 +12,10 @@ LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displaceme
 def outline(mesh):
     """Pairs of point numbers (n, 2) that bound the bodies in 2D.
 
-    Cells of different size share parts of edges. All edges inside a body lie on grid lines, or are shared whole:
-    on a grid line the outline is where an odd number of cells covers the line (slivers of cut cells may cover it
-    several times), elsewhere it is an edge that occurs an odd number of times.
+    Cells of different size share parts of edges. On a geometry that has not moved all edges inside a body lie on grid
+    lines, or are shared whole: on a grid line the outline is where an odd number of cells covers the line (slivers of cut
+    cells may cover it several times), elsewhere it is an edge that occurs an odd number of times. On a moved one an edge
+    may face a chain of shorter ones, of smaller cells or of the parts of a cut cell.
     """
     points, body, edges = mesh.points[:, :2], mesh.body, mesh.edges()
     tolerance = 1e-7 * mesh.size
@@ -26,7 +27,7 @@ def outline(mesh):
         segments.append(oddly_covered(points, body, flat, along, tolerance))
     slanted = edges[~on_line.any(axis=1)]
     segments.append(without_partner(points, body, slanted, tolerance))
-    return np.concatenate(segments)
+    return without_chains(points, body, np.concatenate(segments), tolerance)
 
 
 def oddly_covered(points, body, edges, along, tolerance):
@@ -46,15 +47,61 @@ def oddly_covered(points, body, edges, along, tolerance):
     return np.stack([ends[odd], ends[odd + 1]], axis=1)
 
 
-def without_partner(points, body, edges, tolerance):
-    if len(edges) == 0:
-        return edges
+def welded(points, body, edges, tolerance):
+    """The edges (n, 2) between numbers of places, smaller first; a point of each place."""
     grid = np.rint(points / tolerance / 4).astype(np.int64)
     key = np.column_stack([grid, body])
-    _, number = np.unique(key[edges.ravel()], axis=0, return_inverse=True)
-    number = np.sort(number.reshape(-1, 2), axis=1)
+    _, point, number = np.unique(key[edges.ravel()], axis=0, return_index=True, return_inverse=True)
+    return np.sort(number.reshape(-1, 2), axis=1), edges.ravel()[point]
+
+
+def without_partner(points, body, edges, tolerance):
+    """Edges that occur an odd number of times."""
+    if len(edges) == 0:
+        return edges
+    number, _ = welded(points, body, edges, tolerance)
     _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
     return edges[first[count % 2 == 1]]
+
+
+def without_chains(points, body, edges, tolerance):
+    """Without the edges (a, b) for which a chain of others leads from a to b along them, and without the chain."""
+    if len(edges) == 0:
+        return edges
+    pairs, vertex = welded(points, body, edges, tolerance)
+    places = points[vertex]
+    left = {tuple(pair) for pair in pairs.tolist()}
+    neighbours = {}
+    for a, b in left:
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+
+    def remove(a, b):
+        left.remove((min(a, b), max(a, b)))
+        neighbours[a].remove(b)
+        neighbours[b].remove(a)
+
+    def chain(a, b):
+        axis = places[b] - places[a]
+        square, path = axis @ axis, [a]
+        while path[-1] != b:
+            offsets = {m: places[m] - places[a] for m in neighbours[path[-1]] if m != b or len(path) > 1}
+            along = {m: d @ axis / square for m, d in offsets.items()
+                     if abs(axis[0] * d[1] - axis[1] * d[0]) < 0.05 * square}
+            last = (places[path[-1]] - places[a]) @ axis / square
+            ahead = [m for m in along if last + 1e-6 < along[m] < 1 + 1e-6]
+            if not ahead:
+                return []
+            path.append(min(ahead, key=along.get))
+        return path
+
+    lengths = np.linalg.norm(places[pairs[:, 1]] - places[pairs[:, 0]], axis=1)
+    for a, b in pairs[np.argsort(-lengths)].tolist():
+        path = chain(a, b) if (a, b) in left else []
+        if path:
+            for edge in [(a, b), *zip(path, path[1:])]:
+                remove(*edge)
+    return vertex[np.array(sorted(left), dtype=int).reshape(-1, 2)]
 
 
 def automatic_warp(mesh, contact):
