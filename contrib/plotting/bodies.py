@@ -12,20 +12,18 @@ LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displaceme
 def outline(mesh):
     """Pairs of point numbers (n, 2) that bound the bodies in 2D.
 
-    Cells of different size share parts of edges. All edges inside a body lie on grid lines, or are shared whole:
-    on a grid line the outline is where an odd number of cells covers the line (slivers of cut cells may cover it
-    several times), elsewhere it is an edge that occurs an odd number of times.
+    An edge inside a body occurs twice, or faces a chain of shorter ones: of smaller cells, or of the parts of a cut cell.
+    Cut cells of different size may share parts of edges only; such edges lie on grid lines, where the outline is what an
+    odd number of them covers (slivers may cover it several times).
     """
-    points, body, edges = mesh.points[:, :2], mesh.body, mesh.edges()
+    points, body = mesh.points[:, :2], mesh.body
     tolerance = 1e-7 * mesh.size
-    start, end = points[edges[:, 0]], points[edges[:, 1]]
-    on_line = np.abs(end - start) < tolerance
-    segments = []
+    edges = without_partners(points, body, mesh.edges(), tolerance)
+    on_line = np.abs(points[edges[:, 1]] - points[edges[:, 0]]) < tolerance
+    segments = [edges[~on_line.any(axis=1)]]
     for along in range(2):
         flat = edges[on_line[:, 1 - along] & ~on_line[:, along]]
         segments.append(oddly_covered(points, body, flat, along, tolerance))
-    slanted = edges[~on_line.any(axis=1)]
-    segments.append(without_partner(points, body, slanted, tolerance))
     return np.concatenate(segments)
 
 
@@ -37,7 +35,8 @@ def oddly_covered(points, body, edges, along, tolerance):
     edges = np.where(swap[:, None], edges[:, ::-1], edges)
     ends = np.concatenate([edges[:, 0], edges[:, 1]])
     change = np.repeat([1, -1], len(edges))
-    line = np.rint(points[ends, 1 - along] / tolerance / 4).astype(np.int64)
+    middle = 0.5 * points[edges, 1 - along].sum(axis=1)
+    line = np.tile(np.rint(middle / tolerance / 4).astype(np.int64), 2)
     place = np.rint(points[ends, along] / tolerance / 4).astype(np.int64)
     order = np.lexsort((change, place, line, body[ends]))
     covers = np.cumsum(change[order])
@@ -46,15 +45,51 @@ def oddly_covered(points, body, edges, along, tolerance):
     return np.stack([ends[odd], ends[odd + 1]], axis=1)
 
 
-def without_partner(points, body, edges, tolerance):
-    if len(edges) == 0:
-        return edges
+def without_partners(points, body, edges, tolerance):
+    """Without the edges that occur an even number of times, those (a, b) for which a chain of others leads from a to b
+    along them, and the chains."""
     grid = np.rint(points / tolerance / 4).astype(np.int64)
     key = np.column_stack([grid, body])
-    _, number = np.unique(key[edges.ravel()], axis=0, return_inverse=True)
-    number = np.sort(number.reshape(-1, 2), axis=1)
-    _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
-    return edges[first[count % 2 == 1]]
+    _, vertex, number = np.unique(key[edges.ravel()], axis=0, return_index=True, return_inverse=True)
+    vertex = edges.ravel()[vertex]
+    pairs, count = np.unique(np.sort(number.reshape(-1, 2), axis=1), axis=0, return_counts=True)
+    return vertex[without_chains(points[vertex], pairs[(count % 2 == 1) & (pairs[:, 0] < pairs[:, 1])])]
+
+
+def without_chains(places, pairs):
+    """Without the pairs (a, b) for which a chain of others leads from a to b, within 5% of their distance, and the chains."""
+    left = {tuple(pair) for pair in pairs.tolist()}
+    neighbours = {}
+    for a, b in left:
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+
+    def remove(a, b):
+        left.remove((min(a, b), max(a, b)))
+        neighbours[a].remove(b)
+        neighbours[b].remove(a)
+
+    def chain(a, b):
+        axis = places[b] - places[a]
+        square, path = axis @ axis, [a]
+        while path[-1] != b:
+            offsets = {m: places[m] - places[a] for m in neighbours[path[-1]] if m != b or len(path) > 1}
+            along = {m: d @ axis / square for m, d in offsets.items()
+                     if abs(axis[0] * d[1] - axis[1] * d[0]) < 0.05 * square}
+            last = (places[path[-1]] - places[a]) @ axis / square
+            ahead = [m for m in along if last + 1e-6 < along[m] < 1 + 1e-6]
+            if not ahead:
+                return []
+            path.append(min(ahead, key=along.get))
+        return path
+
+    lengths = np.linalg.norm(places[pairs[:, 1]] - places[pairs[:, 0]], axis=1)
+    for a, b in pairs[np.argsort(-lengths)].tolist():
+        path = chain(a, b) if (a, b) in left else []
+        if path:
+            for edge in [(a, b), *zip(path, path[1:])]:
+                remove(*edge)
+    return np.array(sorted(left), dtype=int).reshape(-1, 2)
 
 
 def automatic_warp(mesh, contact):

@@ -282,7 +282,7 @@ image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const Nodal
   for (unsigned int d = 0; d < dim; ++d)
     values_at_departure<dim>(nodes, displacement[d], increment, u[d]);
   for (const NodeRun &run : nodes.runs)
-    for (std::size_t i = 0; i < run.n; ++i)
+    for (int i = 0; i < run.n; ++i)
       {
         Point<dim> X = lattice.node(lattice.index(run.node + i));
         for (unsigned int d = 0; d < dim; ++d)

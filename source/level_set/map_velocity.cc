@@ -141,7 +141,7 @@ inverse_jacobian(const DepartureRun &run, const int x, double (&inverse)[dim][di
       inverse[i][j] *= factor;
 }
 
-// Solves w = du(x - tau w) at a node of the run; true if converged.
+// Solves w = du(x - tau w) at a node of the run; true if converged, else w stays as it was.
 template <int dim>
 SCREE_INLINE bool
 solve_at(const DepartureRun &run, const int i)
@@ -170,10 +170,12 @@ solve_at(const DepartureRun &run, const int i)
         }
       if (!std::isfinite(sum))
         return false;
-      for (int d = 0; d < dim; ++d)
-        run.displacement[d][i] = w[d];
       if (norm < run.tolerance)
-        return true;
+        {
+          for (int d = 0; d < dim; ++d)
+            run.displacement[d][i] = w[d];
+          return true;
+        }
     }
   return false;
 }

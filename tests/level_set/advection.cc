@@ -209,6 +209,34 @@ TEST(Increments, ShearADiscTo100Percent)
     }
 }
 
+// A motion that is continued badly far from the body: the map folds there and some back-traces have
+// no solution. Values must stay finite, and the body must not notice.
+TEST(Increments, FoldsFarFromTheBody)
+{
+  const double h       = 0.25;
+  const auto   disc    = [](const Point<2> &x) { return x.norm() - 2.; };
+  const auto   initial = sampled<2>(h, 8, disc);
+  const auto   du      = vectors<2>(initial, [&](const Point<2> &x) {
+    const double far = std::max(disc(x) - 2., 0.);
+    return Point<2>(0.1 - 1.1 * far + std::sin(7 * far), 0.3 * far * far * std::cos(11 * x[1]));
+  });
+  const auto   u       = vectors<2>(initial, [](const Point<2> &) { return Point<2>(); });
+  auto         image = initial, moved = initial;
+  EXPECT_GT(image_of_initial<2>(image, initial, du, u).n_unconverged, 0u);
+  EXPECT_GT(advect_increment<2>(moved, du).n_unconverged, 0u);
+  for (std::size_t i = 0; i < initial.values().size(); ++i)
+    {
+      const Point<2> x = initial.node(initial.index(i));
+      EXPECT_LT(std::abs(image.values()[i]), 100.);
+      EXPECT_LT(std::abs(moved.values()[i]), 100.);
+      if (std::abs(disc(x)) < 1.)
+        {
+          EXPECT_NEAR(image.values()[i], disc(x - Tensor<1, 2>({0.1, 0.})), 0.1 * h);
+          EXPECT_NEAR(moved.values()[i], disc(x - Tensor<1, 2>({0.1, 0.})), 0.1 * h);
+        }
+    }
+}
+
 // A square turned by 360 degrees: advection rounds its corners step by step, the image of the
 // initial level set keeps them.
 TEST(Increments, ImageOfTheInitialLevelSetDoesNotWear)

@@ -12,7 +12,7 @@ namespace scree
  * central differences G of du at x (exact in one step where du is linear) from the given w, until a
  * step that began with `|r| < 1e-8 spacing`. du is interpolated by cubic Lagrange polynomials on
  * the 4 nodes per direction around the point, linearly beyond the ends of the grid. Nodes that do
- * not get there in 30 iterations (the map folds) keep the last w and are counted.
+ * not get there in 30 iterations (the map folds) keep the given w and are counted.
  *
  * @param du       displacement increments at all nodes, length; one array per component
  * @param tau      part of the increment, 0 to 1
