@@ -23,10 +23,11 @@ Simulation<dim>::set_up_points()
     seed_points();
   else
     {
-      send_to_owners<dim>(
-        state.points, [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; },
-        communicator);
+      const auto owner = [&](const dealii::Point<dim> &x) { return grid->locate(x).rank; };
+      send_to_owners<dim>(state.points, owner, communicator);
       divide_points();
+      // the parts of a point may lie in cells of other processes
+      send_to_owners<dim>(state.points, owner, communicator);
     }
   step_start = std::make_unique<StepStart<dim>>(*fields, bodies, state.points, parameters.moving);
 }
