@@ -290,8 +290,8 @@ Simulation<dim>::solve_step(const double time)
   if (is_moving())
     {
       const Timings::Scope scope(timings, "material points");
-      const std::string    reason = why_too_large(u);
-      points_at_end               = moved_points(u);
+      points_at_end            = moved_points(u);
+      const std::string reason = why_too_large();
       if (!reason.empty())
         {
           log.line("Step " + std::to_string(step) + " to time " + short_number(time)

@@ -116,7 +116,7 @@ private:
   /** The material points after the increment, with the law's answers. */
   MaterialPoints<dim> moved_points(const typename Equilibrium<dim>::Vector &u) const;
   /** Why a converged increment is too large for the moving geometry; empty: it is not. */
-  std::string why_too_large(const typename Equilibrium<dim>::Vector &u) const;
+  std::string why_too_large() const;
   /** expected_increment() for the search of contact; empty in the first step. */
   typename ContactPoints<dim>::Prediction prediction() const;
   /** What the last increment lets expect of a body at x in the coming step. */
