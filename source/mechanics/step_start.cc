@@ -1,3 +1,5 @@
+#include <scree/base/exceptions.h>
+#include <scree/base/log.h>
 #include <scree/mechanics/step_start.h>
 #include <scree/points/migration.h>
 #include <scree/points/splitting.h>
@@ -160,6 +162,27 @@ StepStart<dim>::reference_position(const PointInCell<dim> &point) const
 }
 
 template <int dim>
+void
+StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
+                                   const dealii::Tensor<2, dim> &F) const
+{
+  if (determinant(F) > 0.)
+    return;
+  const ActiveCell        &cell     = fields.cells()[point.active_cell];
+  const auto              &geometry = fields.grid.cells()[cell.grid_cell];
+  const dealii::Point<dim> x
+    = geometry.lower + geometry.size * dealii::Tensor<1, dim>(point.unit_point);
+  std::string place;
+  for (unsigned int d = 0; d < dim; ++d)
+    place += (d == 0 ? "" : ", ") + short_number(x[d]);
+  throw UserError("Bodies/" + bodies[cell.body].name,
+                  "its displacement at the start of the step turns the material at (" + place
+                    + ") inside out: det F = " + short_number(determinant(F)),
+                  "use more steps or finer cells; where a prescribed displacement ends at a sharp "
+                  "edge, let it end smoothly or load the body by tractions");
+}
+
+template <int dim>
 std::vector<PointHistory<dim>>
 StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
 {
@@ -168,21 +191,24 @@ StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
   if (!of_points)
     for (std::size_t i = 0; i < points.size(); ++i)
       result[i].deformation_gradient = deformation(points[i]).gradient;
-  if (cloud.n_internal() == 0 && !of_points)
-    return result;
-  const PointWeights transfer = weights(points);
-  if (of_points)
+  if (cloud.n_internal() > 0 || of_points)
     {
-      const auto gradients = transfer.values(cloud.deformation_gradient);
-      for (std::size_t i = 0; i < points.size(); ++i)
-        result[i].deformation_gradient = gradients[i];
+      const PointWeights transfer = weights(points);
+      if (of_points)
+        {
+          const auto gradients = transfer.values(cloud.deformation_gradient);
+          for (std::size_t i = 0; i < points.size(); ++i)
+            result[i].deformation_gradient = gradients[i];
+        }
+      if (cloud.n_internal() > 0)
+        {
+          const auto internal = transfer.values(cloud.internal, n_internal);
+          for (std::size_t i = 0; i < points.size(); ++i)
+            load_internal(&internal[i * n_internal], result[i]);
+        }
     }
-  if (cloud.n_internal() > 0)
-    {
-      const auto internal = transfer.values(cloud.internal, n_internal);
-      for (std::size_t i = 0; i < points.size(); ++i)
-        load_internal(&internal[i * n_internal], result[i]);
-    }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    require_admissible(points[i], result[i].deformation_gradient);
   return result;
 }
 

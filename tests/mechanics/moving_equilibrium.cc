@@ -2,6 +2,7 @@
 // forces it leads to, and the tangent as the derivative of the residual.
 #include <gtest/gtest.h>
 
+#include <scree/base/exceptions.h>
 #include <scree/points/seeding.h>
 
 #include <functional>
@@ -314,6 +315,22 @@ TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
                 << step.bulk.work(zero).energy << std::endl;
       EXPECT_LT(largest / 1000., 1e-9);
       EXPECT_LT(std::abs(step.bulk.work(zero).energy), 1e-9);
+    }
+}
+
+TEST(MovingEquilibrium, MaterialInsideOutIsTold)
+{
+  const auto mirrored = [](const Point<2> &x) { return Tensor<1, 2>({2. * x[0], 0.}); };
+  try
+    {
+      StartedStep<2> step(loaded_disc(1), "Hencky", mirrored);
+      FAIL() << "no error";
+    }
+  catch (const UserError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("Bodies/disc: its displacement"), std::string::npos)
+        << error.what();
+      EXPECT_NE(std::string(error.what()).find("det F = -1"), std::string::npos) << error.what();
     }
 }
 

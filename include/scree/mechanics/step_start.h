@@ -44,7 +44,11 @@ public:
   /** X = x - u_n. */
   dealii::Point<dim> reference_position(const PointInCell<dim> &point) const;
 
-  /** The histories at points of deformable bodies. */
+  /**
+   * The histories at points of deformable bodies.
+   *
+   * @throws UserError where det F_n is not positive
+   */
   std::vector<PointHistory<dim>> histories(const std::vector<PointInCell<dim>> &points) const;
 
   /** The history of an own material point, whose internal variables are known there. */
@@ -68,6 +72,7 @@ public:
   static bool needs_internal(const std::vector<Body<dim>> &bodies);
 
 private:
+  void require_admissible(const PointInCell<dim> &point, const dealii::Tensor<2, dim> &F) const;
   PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
   void         collect_neighbours();
 
