@@ -369,8 +369,9 @@ transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &
     {
       const ContactPoint<dim> &point = contact.points()[i];
       TransferredForce<dim>   &force = result[point.pair];
-      force.tangential_after += point.weight * history.tau[i];
-      force.total_after += point.weight * (history.pressure[i] * point.normal + history.tau[i]);
+      const Tensor<1, dim>     tau   = turned(history.tau[i], point.normal, point.start_normal);
+      force.tangential_after += point.weight * tau;
+      force.total_after += point.weight * (history.pressure[i] * point.start_normal + tau);
     }
   for (auto &force : result)
     {
@@ -399,8 +400,9 @@ keep_resultants(const ContactPoints<dim> &contact, const ContactMemory<dim> &mem
       const Tensor<1, dim>         missing = force.tangential_before - force.tangential_after;
       if (!(missing.norm() < largest_change * size))
         continue;
+      const Tensor<1, dim> &n = point.start_normal;
       history.tau[i]
-        += history.tau[i].norm() / size * (missing - (missing * point.normal) * point.normal);
+        += turned(history.tau[i].norm() / size * (missing - (missing * n) * n), n, point.normal);
     }
 }
 

@@ -86,7 +86,10 @@ struct TransferredForce
   dealii::Tensor<1, dim> tangential_before, tangential_after; //!< int tau
 };
 
-/** Forces of what is remembered and of what is recalled, for each pair of `contact`. Collective. */
+/**
+ * Forces of what is remembered and of what is recalled, for each pair of `contact`, both with the
+ * normals at the start of the step. Collective.
+ */
 template <int dim>
 std::vector<TransferredForce<dim>>
 transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
@@ -94,8 +97,9 @@ transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &
 
 /**
  * Gives each pair of `contact` the resultant of the tangential tractions that is remembered: with D
- * what is missing after recall() and S = int |tau|, tau <- tau + |tau| P D/S, P = I - n n^T, where
- * |D| < S/10; else the surface has changed and tau stays. Collective.
+ * what is missing after recall() and S = int |tau|, tau <- tau + |tau| P D/S, P = I - n n^T of the
+ * surface at the start of the step, where |D| < S/10; else the surface has changed and tau stays.
+ * Collective.
  */
 template <int dim>
 void keep_resultants(const ContactPoints<dim> &contact, const ContactMemory<dim> &memory,
