@@ -124,7 +124,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   accepted_time       = time;
   is_unloaded         = false;
 
-  // The work of the tangential tractions by the trapezoidal rule that is not stored in them.
+  // The work of the tangential tractions on the slip, by the trapezoidal rule.
   double dissipated = 0.;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
@@ -133,9 +133,10 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
       const auto &old_tau  = old_history.tau[i];
       auto        slip     = contact.jumps()[i] - old_history.jump[i];
       slip -= (slip * point.normal) * point.normal;
-      dissipated -= 0.5 * point.weight
-                    * ((old_tau + response.tau) * slip
-                       + (response.tau.norm_square() - old_tau.norm_square()) / contact.eps_t(i));
+      slip += (response.tau - old_tau) / contact.eps_t(i); // without what the penalty gives back
+      // A traction that would drive the slip has turned before it began.
+      const auto mean = old_tau * slip > 0. ? response.tau : 0.5 * (old_tau + response.tau);
+      dissipated -= point.weight * (mean * slip);
     }
   energies.dissipation += dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
   energies.plastic += store_energies(with_ghost_values);
