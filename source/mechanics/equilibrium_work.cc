@@ -125,7 +125,8 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   is_unloaded         = false;
 
   // The work of the tangential tractions on the slip, by the trapezoidal rule.
-  double dissipated = 0.;
+  // Where an old traction would drive the slip this is negative; the traction has turned before.
+  double dissipated = 0., not_negative = 0.;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       const auto &point    = contact.points()[i];
@@ -134,11 +135,14 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
       auto        slip     = contact.jumps()[i] - old_history.jump[i];
       slip -= (slip * point.normal) * point.normal;
       slip += (response.tau - old_tau) / contact.eps_t(i); // without what the penalty gives back
-      // A traction that would drive the slip has turned before it began.
-      const auto mean = old_tau * slip > 0. ? response.tau : 0.5 * (old_tau + response.tau);
-      dissipated -= point.weight * (mean * slip);
+      const double at_end = -point.weight * (response.tau * slip);
+      const double mean   = 0.5 * (at_end - point.weight * (old_tau * slip));
+      dissipated += mean;
+      not_negative += mean < 0. ? at_end : mean;
     }
-  energies.dissipation += dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
+  dissipated   = dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
+  not_negative = dealii::Utilities::MPI::sum(not_negative, fields.grid.communicator());
+  energies.dissipation += dissipated < 0. ? not_negative : dissipated;
   energies.plastic += store_energies(with_ghost_values);
 }
 
