@@ -97,10 +97,8 @@ Simulation<dim>::collect() const
         state.points.pack(i, points);
       result.moving.points   = gather_arrays(points, communicator);
       result.moving.step_end = state.step_end;
-      auto &driven           = result.moving.step_end.driving.of_points;
-      driven.clear();
-      for (const auto &part : gather_arrays(state.step_end.driving.of_points, communicator))
-        driven.insert(driven.end(), part.begin(), part.end());
+      result.moving.step_end.driving.of_points
+        = gather_joined(state.step_end.driving.of_points, communicator);
       result.moving.predictor = predictor;
       for (const Body<dim> &body : bodies)
         {

@@ -17,16 +17,6 @@ namespace scree
 {
 namespace
 {
-template <int dim>
-std::string
-position(const dealii::Point<dim> &point)
-{
-  std::string text;
-  for (unsigned int d = 0; d < dim; ++d)
-    text += (d == 0 ? "(" : ", ") + short_number(point[d]);
-  return text + ")";
-}
-
 std::string
 resident_memory()
 {
@@ -211,7 +201,7 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
     log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
              + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
              + short_number(summaries[p].slip) + ", smallest gap "
-             + short_number(summaries[p].minimum_gap) + " at " + position(summaries[p].where)
+             + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
              + ", points that changed their state in the last iteration: "
              + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
 }

@@ -25,7 +25,6 @@ modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
     = [](const Body<dim> &body) { return body.is_rigid() ? 0. : 1. / body.material->young(); };
   return 2. / (compliance(a) + compliance(b));
 }
-
 } // namespace
 
 template <int dim>

@@ -74,15 +74,17 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
               // A contour through a vertex leaves points of no length in the cells that touch it.
               if (gap > 2. * shift || surface.weights[q] < negligible)
                 continue;
-              dealii::Tensor<1, dim> normal;
-              for (unsigned int i = 0; i < basis.n_nodes && nodal_normals; ++i)
-                normal += shape[i] * gradients[i];
-              if (!nodal_normals)
-                normal = surface.normals[q];
+              dealii::Tensor<1, dim> normal = surface.normals[q];
+              if (nodal_normals)
+                {
+                  normal = 0.;
+                  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+                    normal += shape[i] * gradients[i];
+                }
+              normal /= normal.norm();
               surface_points.push_back(
-                {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]),
-                 normal / normal.norm(), surface.weights[q], gap, cell.size,
-                 normal / normal.norm()});
+                {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]), normal,
+                 surface.weights[q], gap, cell.size, normal});
             }
         }
     }

@@ -90,10 +90,8 @@ Equilibrium<dim>::work_of_step(const Vector &u, const Vector &with_ghost_values)
 
 template <int dim>
 double
-Equilibrium<dim>::released_work(const Vector &u, const ContactHistory<dim> &old_history) const
+Equilibrium<dim>::released_work(const Vector &motion, const ContactHistory<dim> &old_history) const
 {
-  Vector motion(u);
-  motion -= accepted_u;
   double work = work_on_prescribed(accepted_driven) - work_on_prescribed(unbalanced->driven);
   // The law has cut tractions at u = 0, dissipation goes on from the remembered ones.
   for (unsigned int i = 0; i < contact.points().size(); ++i)
@@ -114,7 +112,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   Vector motion(u);
   motion -= accepted_u;
   if (unbalanced)
-    energies.transfer -= released_work(u, old_history);
+    energies.transfer -= released_work(motion, old_history);
   unbalanced.reset();
   accepted_dead_loads += dead_loads;
   energies.external_work
@@ -194,8 +192,9 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
     {
       // Loads grow from zero in the first step. Bodies may overlap: only contact is unbalanced.
       unloaded.of_rigid.assign(n_rigid_unknowns(), 0.);
-      driving             = &unloaded;
-      is_unloaded         = true;
+      driving     = &unloaded;
+      is_unloaded = true;
+      accepted_driven.clear();
       accepted_dead_loads = 0.;
       accepted_reactions.equ(-1., contact_forces);
       r = contact_forces;
@@ -220,7 +219,7 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
   unbalanced->residual = r;
   for (const auto &response : contact.responses())
     unbalanced->tau.push_back(response.tau);
-  unbalanced->driven = driving == &unloaded ? driving->of_points : std::move(accepted_driven);
+  unbalanced->driven = std::move(accepted_driven);
   accepted_driven    = driving->of_points;
   current_energies   = energies;
   // What laws dissipate at once is counted at the end of the step and was stored before.

@@ -172,12 +172,9 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
   const auto              &geometry = fields.grid.cells()[cell.grid_cell];
   const dealii::Point<dim> x
     = geometry.lower + geometry.size * dealii::Tensor<1, dim>(point.unit_point);
-  std::string place;
-  for (unsigned int d = 0; d < dim; ++d)
-    place += (d == 0 ? "" : ", ") + short_number(x[d]);
   throw UserError("Bodies/" + bodies[cell.body].name,
-                  "its displacement at the start of the step turns the material at (" + place
-                    + ") inside out: det F = " + short_number(determinant(F)),
+                  "its displacement at the start of the step turns the material at "
+                    + short_place(x) + " inside out: det F = " + short_number(determinant(F)),
                   "use more steps or finer cells; where a prescribed displacement ends at a sharp "
                   "edge, let it end smoothly or load the body by tractions");
 }

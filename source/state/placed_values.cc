@@ -41,13 +41,9 @@ template <int dim>
 void
 PlacedValues<dim>::gather(const MPI_Comm communicator)
 {
-  std::vector<Place>  all_places;
-  std::vector<double> all_values;
-  for (const auto &of_process : gather_arrays(places, communicator))
-    all_places.insert(all_places.end(), of_process.begin(), of_process.end());
-  for (const auto &of_process : gather_arrays(values, communicator))
-    all_values.insert(all_values.end(), of_process.begin(), of_process.end());
-  std::vector<std::size_t> order(all_places.size());
+  const std::vector<Place>  all_places = gather_joined(places, communicator);
+  const std::vector<double> all_values = gather_joined(values, communicator);
+  std::vector<std::size_t>  order(all_places.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](const std::size_t i, const std::size_t j) {
     return all_places[i] < all_places[j];

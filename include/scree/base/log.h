@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <fstream>
 #include <mpi.h>
 #include <string>
@@ -31,6 +33,17 @@ private:
 
 /** A number in few characters: 4 significant digits. */
 std::string short_number(const double value);
+
+/** A place as "(0.5, 1)". */
+template <int dim>
+std::string
+short_place(const dealii::Point<dim> &point)
+{
+  std::string text;
+  for (unsigned int d = 0; d < dim; ++d)
+    text += (d == 0 ? "(" : ", ") + short_number(point[d]);
+  return text + ")";
+}
 
 /** Seconds as "12 s", "3 min 20 s", "2 h 5 min". */
 std::string short_duration(const double seconds);

@@ -37,9 +37,9 @@ public:
    *
    * @param energies at the end of the step before: what the motion of the geometry changed in them
    *                 is Energies::transfer
-   * @param driving  there, null at the start of a run, when nothing is loaded. External work goes
-   * on from these forces. The fitted state at u = 0 is not in equilibrium; what its unbalanced
-   * forces release in the step also is Energies::transfer.
+   * @param driving  there, null at the start of a run, when nothing is loaded. External work
+   *                 goes on from these forces. The fitted state at u = 0 is not in equilibrium;
+   *                 what its unbalanced forces release in the step also is Energies::transfer.
    */
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
                   const Energies &energies, const DrivingForces<dim> *driving);
@@ -170,8 +170,8 @@ private:
   double work_of_pressures(const Vector &with_ghost_values) const;
   /** Of constant forces on what is prescribed, from the accepted time to now. */
   double work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const;
-  /** What the unbalanced forces of the start of the step release on the way to `u`. */
-  double released_work(const Vector &u, const ContactHistory<dim> &old_history) const;
+  /** What the unbalanced forces of the start of the step release in its motion. */
+  double released_work(const Vector &motion, const ContactHistory<dim> &old_history) const;
   bool   is_following_pressure(const BoundaryRegion<dim> &region) const;
   void   remember_conditions(const Vector &with_ghost_values);
   void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history,

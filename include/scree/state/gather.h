@@ -34,4 +34,15 @@ gather_arrays(const std::vector<T> &own, const MPI_Comm communicator)
   MPI_Type_free(&type);
   return result;
 }
+
+/** The same in one array. */
+template <typename T>
+std::vector<T>
+gather_joined(const std::vector<T> &own, const MPI_Comm communicator)
+{
+  std::vector<T> result;
+  for (const auto &of_process : gather_arrays(own, communicator))
+    result.insert(result.end(), of_process.begin(), of_process.end());
+  return result;
+}
 } // namespace scree
