@@ -107,10 +107,11 @@ Simulation<dim>::collect() const
           place.pose            = body.pose;
           if (body.is_rigid())
             continue;
-          place.lower     = body.level_set.lower();
-          place.n_nodes   = body.level_set.n_nodes();
-          place.level_set = body.level_set.values();
-          place.box       = body.box;
+          place.lower        = body.level_set.lower();
+          place.n_nodes      = body.level_set.n_nodes();
+          place.level_set    = body.level_set.values();
+          place.box          = body.box;
+          place.displacement = body.displacement;
         }
     }
   else
@@ -212,6 +213,9 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
       bodies[b].level_set = Lattice<dim>(bodies[b].level_set.frame(), place.lower, place.n_nodes);
       bodies[b].level_set.values() = place.level_set;
       bodies[b].box                = place.box;
+      bodies[b].displacement       = place.displacement;
+      if (parameters.moving.motion != IncrementMotion::reference_map)
+        bodies[b].shape = nullptr;
     }
   discretise();
   results->set_discretization(*fields, *level_set_nodes);

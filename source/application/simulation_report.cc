@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/geometry/level_set_from_shape.h>
 #include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -52,6 +53,12 @@ Simulation<dim>::report_set_up()
               "raise Grid/Finest level or check the shape: the body must be wider than a few "
               "cells of edge "
                 + short_number(grid->finest_size()));
+      const double h         = grid->finest_size();
+      const double thickness = 2. * inscribed_radius(*bodies[b].shape, bodies[b].level_set);
+      require(thickness > (1. - 1e-6) * h, bodies[b].path,
+              "the body '" + bodies[b].name + "' is " + short_number(thickness)
+                + " thick, less than a cell of edge " + short_number(h),
+              "raise Grid/Finest level");
       double smallest = std::numeric_limits<double>::max();
       for (unsigned int d = 0; d < dim; ++d)
         smallest = std::min(smallest, bodies[b].box.side_length(d));

@@ -128,6 +128,15 @@ make_rigid_body(const BodyParameters<dim> &body, const std::shared_ptr<const Sha
 } // namespace
 
 template <int dim>
+dealii::Point<dim>
+initial_position(const Body<dim> &body, const dealii::Point<dim> &x)
+{
+  if (body.is_rigid())
+    return RigidPose<dim>(*body.rigid, body.pose).initial_position(x);
+  return body.displacement.is_empty() ? x : dealii::Point<dim>(x - body.displacement(x));
+}
+
+template <int dim>
 std::vector<Body<dim>>
 make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
             const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
@@ -186,16 +195,17 @@ candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach)
   return pairs;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template struct BodyParameters<dim>;                                                        \
-  template struct Body<dim>;                                                                  \
-  template std::vector<BodyParameters<dim>> declare_bodies(ParameterSection &,                \
-                                                           const std::vector<std::string> &); \
-  template std::vector<Body<dim>>           make_bodies(                                      \
-              const std::vector<BodyParameters<dim>> &,                                       \
-              const std::map<std::string, std::shared_ptr<const Material<dim>>> &,            \
-              const LatticeFrame<dim> &, const double);                                       \
-  template std::vector<std::pair<unsigned int, unsigned int>> candidate_pairs(                \
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template struct BodyParameters<dim>;                                                         \
+  template struct Body<dim>;                                                                   \
+  template dealii::Point<dim> initial_position(const Body<dim> &, const dealii::Point<dim> &); \
+  template std::vector<BodyParameters<dim>> declare_bodies(ParameterSection &,                 \
+                                                           const std::vector<std::string> &);  \
+  template std::vector<Body<dim>>           make_bodies(                                       \
+              const std::vector<BodyParameters<dim>> &,                                        \
+              const std::map<std::string, std::shared_ptr<const Material<dim>>> &,             \
+              const LatticeFrame<dim> &, const double);                                        \
+  template std::vector<std::pair<unsigned int, unsigned int>> candidate_pairs(                 \
     const std::vector<Body<dim>> &, const double);
 
 SCREE_INSTANTIATE(2)

@@ -1,4 +1,5 @@
 #include <scree/base/exceptions.h>
+#include <scree/bodies/thin_body.h>
 #include <scree/contact/contact_points.h>
 #include <scree/level_set/closest_point.h>
 
@@ -102,7 +103,10 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
         if (!bodies[body].is_rigid())
           {
             dealii::Point<dim> foot
-              = project(bodies[body].level_set, start, fields.basis.degree).point;
+              = foot_on_thin_body<dim>(bodies[body], start,
+                                       body == pair.a ? point.normal : -point.normal,
+                                       2. * point.cell_size)
+                  .value_or(project(bodies[body].level_set, start, fields.basis.degree).point);
             for (unsigned int d = 0; d < dim; ++d)
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
             of_body.push_back(body);

@@ -50,8 +50,10 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
           const double at_a = a.value(centre, 1), at_b = b.value(centre, 1);
           if (std::max(at_a, at_b) > shift + 2. * reach || std::abs(at_a - at_b) > 4. * reach)
             continue;
-          level_set_nodes.cell_values(c, a, phi_a.data());
-          level_set_nodes.cell_values(c, b, phi_b.data());
+          level_set_nodes.facing_values(c, bodies[pairs[p].a],
+                                        -b.value_and_gradient(centre, 1).second, phi_a.data());
+          level_set_nodes.facing_values(c, bodies[pairs[p].b],
+                                        -a.value_and_gradient(centre, 1).second, phi_b.data());
           unsigned int n_negative = 0;
           for (unsigned int i = 0; i < basis.n_nodes; ++i)
             psi[i] = phi_a[i] - phi_b[i];

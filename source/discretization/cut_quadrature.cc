@@ -1,4 +1,5 @@
 #include <scree/discretization/cut_quadrature.h>
+#include <scree/discretization/polytope_rules.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -54,7 +55,8 @@ private:
 
 template <int dim>
 CutCellRules<dim>::CutCellRules(const LagrangeBasis<dim> &basis)
-    : level_set(std::make_unique<CellLevelSet>(basis))
+    : degree(basis.degree)
+    , level_set(std::make_unique<CellLevelSet>(basis))
     , gauss(dealii::QGauss<1>(basis.degree + 1))
     , generator(gauss)
     , face_generator(std::make_unique<dealii::NonMatching::FaceQuadratureGenerator<dim>>(gauss))
@@ -85,6 +87,45 @@ CutCellRules<dim>::rules(const double *scaled, const double cell_size)
       result.surface.weights.push_back(surface.weight(q) * area);
       result.surface.normals.push_back(surface.normal_vector(q));
     }
+  return result;
+}
+
+template <int dim>
+typename CutCellRules<dim>::Rules
+CutCellRules<dim>::rules(const CellCut<dim> &cut, const double cell_size)
+{
+  if (cut.parts.empty())
+    return rules(cut.scaled.data(), cell_size);
+  Rules result;
+  for (const auto &part : cut.parts)
+    {
+      append_rule(part, degree, cell_size, result.inside);
+      for (const auto &facet : part.facets)
+        if (facet.is_surface())
+          append_rule(facet, facet.normal, degree, cell_size, result.surface);
+    }
+  return result;
+}
+
+template <int dim>
+CellPoints<dim>
+CutCellRules<dim>::face_rule(const CellCut<dim> &cut, const double cell_size,
+                             const unsigned int face)
+{
+  const double sign = face % 2 == 0 ? -1. : 1.;
+  if (cut.location == CellLocation::cut && cut.parts.empty())
+    return face_rule(cut.scaled.data(), cell_size, face);
+  CellPoints<dim> result;
+  const auto      append = [&](const Polytope<dim> &part) {
+    for (const auto &facet : part.facets)
+      if (facet.face == int(face))
+        append_rule(facet, sign * dealii::Point<dim>::unit_vector(face / 2), degree, cell_size,
+                         result);
+  };
+  if (cut.location == CellLocation::inside)
+    append(Polytope<dim>::unit_cell());
+  for (const auto &part : cut.parts)
+    append(part);
   return result;
 }
 
@@ -123,8 +164,7 @@ CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
   whole_cell.points  = gauss.get_points();
   whole_cell.weights = gauss.get_weights();
 
-  CutCellRules<dim>                           rules(fields.basis);
-  std::array<double, max_nodes_per_cell<dim>> values, scaled;
+  CutCellRules<dim> rules(fields.basis);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell = fields.cells()[a];
@@ -135,9 +175,7 @@ CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
           continue;
         }
       const double size = fields.grid.cells()[cell.grid_cell].size;
-      level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values.data());
-      level_set_nodes.nudged(values.data(), size, scaled.data());
-      const auto cut = rules.rules(scaled.data(), size);
+      const auto   cut  = rules.rules(level_set_nodes.cut(cell.grid_cell, bodies[cell.body]), size);
       bulk.append(cut.inside);
       surface.append(cut.surface);
     }

@@ -50,7 +50,7 @@ Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
                      && cell.lower[d] + 2. * cell.size > box.lower_bound(d);
         if (!overlap || bodies[b].is_rigid())
           continue;
-        const CellLocation location = level_set_nodes.classify(c, bodies[b].level_set);
+        const CellLocation location = level_set_nodes.cut(c, bodies[b]).location;
         if (location != CellLocation::outside)
           bodies_of_cell[c].emplace_back(b, location == CellLocation::cut);
       }

@@ -6,6 +6,8 @@
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 namespace scree
@@ -79,36 +81,102 @@ LevelSetNodes<dim>::cell_values(const unsigned int cell, const Lattice<dim> &lat
 
 template <int dim>
 void
-LevelSetNodes<dim>::nudged(const double *values, const double cell_size, double *scaled) const
+LevelSetNodes<dim>::facing_values(const unsigned int cell, const Body<dim> &body,
+                                  const dealii::Tensor<1, dim> &towards, double *values) const
 {
+  cell_values(cell, body.level_set, values);
+  if (!body.shape || body.shape->is_smooth())
+    return;
+  const double looks_away = -0.5 * towards.norm(), size = grid.cells()[cell].size;
+  const std::vector<dealii::Point<dim>> nodes = initial_nodes(cell, body);
+  const auto pieces_near = [&](const dealii::Point<dim> &X, const double reach) {
+    dealii::BoundingBox<dim> box({X, X});
+    box.extend(reach);
+    std::vector<SmoothPiece<dim>> pieces;
+    body.shape->append_pieces(box, pieces);
+    return pieces;
+  };
+  // The direction of a piece where the body is now.
+  const auto faces = [&](const SmoothPiece<dim> &piece, const unsigned int node) {
+    const dealii::Point<dim> x
+      = grid.cells()[cell].lower + size * dealii::Tensor<1, dim>(lagrange.node(node));
+    dealii::Tensor<1, dim> gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const dealii::Tensor<1, dim> step = 0.1 * size * dealii::Point<dim>::unit_vector(d);
+        gradient[d]                       = piece.value(initial_position<dim>(body, x + step))
+                      - piece.value(initial_position<dim>(body, x - step));
+      }
+    return gradient * towards > looks_away * gradient.norm();
+  };
   for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
     {
-      scaled[i] = values[i] / cell_size;
-      if (std::abs(scaled[i]) < 1e-12)
-        scaled[i] = 1e-12;
+      const double reach  = std::abs(values[i]) + 1e-9 * size;
+      const auto   nearby = pieces_near(nodes[i], reach);
+      if (nearby.empty() || reach > 3. * size
+          || std::any_of(nearby.begin(), nearby.end(), [&](const auto &piece) {
+               return std::abs(piece.value(nodes[i])) <= reach && faces(piece, i);
+             }))
+        continue;
+      double largest = -std::numeric_limits<double>::max();
+      for (const auto &piece : pieces_near(nodes[i], reach + 2. * size))
+        if (faces(piece, i))
+          largest = std::max(largest, piece.value(nodes[i]));
+      if (largest > -std::numeric_limits<double>::max())
+        values[i] = largest;
     }
 }
 
 template <int dim>
-CellLocation
-LevelSetNodes<dim>::classify(const unsigned int cell, const Lattice<dim> &lattice) const
+void
+LevelSetNodes<dim>::nudged(const double *values, const double cell_size, double *scaled) const
+{
+  nudge(values, lagrange.n_nodes, cell_size, scaled);
+}
+
+template <int dim>
+std::vector<dealii::Point<dim>>
+LevelSetNodes<dim>::initial_nodes(const unsigned int cell, const Body<dim> &body) const
+{
+  const GridCell<dim>            &geometry = grid.cells()[cell];
+  std::vector<dealii::Point<dim>> result;
+  for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
+    result.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(lagrange.node(i)));
+  if (body.displacement.is_empty())
+    return result;
+  for (auto &x : result)
+    x = initial_position(body, x);
+  for (const auto &[node, masters] : hanging[cell])
+    {
+      result[node] = dealii::Point<dim>();
+      for (const auto &[point, weight] : masters)
+        result[node] += weight * dealii::Tensor<1, dim>(initial_position(body, point));
+    }
+  return result;
+}
+
+template <int dim>
+CellCut<dim>
+LevelSetNodes<dim>::cut(const unsigned int cell, const Body<dim> &body) const
 {
   const GridCell<dim> &geometry = grid.cells()[cell];
   dealii::Point<dim>   centre   = geometry.lower;
   for (unsigned int d = 0; d < dim; ++d)
     centre[d] += 0.5 * geometry.size;
-  const double at_centre = lattice.value(centre, 1);
+  const double at_centre = body.level_set.value(centre, 1);
+  CellCut<dim> result;
   if (std::abs(at_centre) > 1.5 * std::sqrt(double(dim)) * geometry.size)
-    return at_centre < 0. ? CellLocation::inside : CellLocation::outside;
-  std::array<double, max_nodes_per_cell<dim>> values, scaled;
-  cell_values(cell, lattice, values.data());
-  nudged(values.data(), geometry.size, scaled.data());
-  unsigned int n_negative = 0;
-  for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
-    n_negative += scaled[i] < 0.;
-  return n_negative == 0                  ? CellLocation::outside
-         : n_negative == lagrange.n_nodes ? CellLocation::inside
-                                          : CellLocation::cut;
+    {
+      result.location = at_centre < 0. ? CellLocation::inside : CellLocation::outside;
+      return result;
+    }
+  if (body.shape && !body.shape->is_smooth())
+    return cut_by_pieces(*body.shape, lagrange, initial_nodes(cell, body), geometry.size);
+  std::array<double, max_nodes_per_cell<dim>> values;
+  cell_values(cell, body.level_set, values.data());
+  nudged(values.data(), geometry.size, result.scaled.data());
+  result.location = location_of(result.scaled.data(), lagrange.n_nodes);
+  return result;
 }
 
 template class LevelSetNodes<2>;

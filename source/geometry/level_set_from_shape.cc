@@ -49,6 +49,25 @@ check_finite(const Lattice<dim> &lattice, const std::string &where)
       }
 }
 
+// A body of one spacing between two planes of nodes has no negative node: its zeros become those.
+template <int dim>
+void
+fill_thin_body(const Shape<dim> &shape, Lattice<dim> &lattice)
+{
+  if (lattice.is_tiled())
+    return;
+  const double tiny = 1e-9 * lattice.spacing();
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    for (unsigned int side = 0; side < 2 * dim && std::abs(lattice.values()[i]) < 0.5 * tiny;
+         ++side)
+      {
+        Point<dim> middle = lattice.node(lattice.index(i));
+        middle[side / 2] += (side % 2 == 0 ? -0.5 : 0.5) * lattice.spacing();
+        if (shape.signed_distance(middle) < 0)
+          lattice.values()[i] = -tiny;
+      }
+}
+
 // The part of a box that the body needs.
 template <int dim>
 NodeBox<dim>
@@ -85,9 +104,14 @@ find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
       upper[d] += width;
     }
 
-  Lattice<dim> lattice = sampled(shape, frame, node_box(frame, lower, upper), width);
-  if (std::none_of(lattice.values().begin(), lattice.values().end(),
-                   [](const double value) { return value < 0; }))
+  Lattice<dim> lattice  = sampled(shape, frame, node_box(frame, lower, upper), width);
+  const auto   is_empty = [&]() {
+    return std::none_of(lattice.values().begin(), lattice.values().end(),
+                          [](const double value) { return value < 0; });
+  };
+  if (is_empty())
+    fill_thin_body(shape, lattice);
+  if (is_empty())
     return {};
   const NodeBox<dim> needed = trimmed(lattice, width);
   if (needed.n_nodes != lattice.n_nodes())
@@ -96,6 +120,50 @@ find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
   if (!shape.is_distance() && has_contour(lattice))
     compute_distances(lattice);
   return lattice;
+}
+
+template <int dim>
+double
+inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice)
+{
+  constexpr unsigned int   n_starts = 30;
+  const double             h        = lattice.spacing();
+  const auto              &values   = lattice.values();
+  const double             lowest   = *std::min_element(values.begin(), values.end());
+  std::vector<std::size_t> deep;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] < lowest + 0.25 * h)
+      deep.push_back(i);
+  double     radius = 0;
+  const auto stride = std::max<std::size_t>(1, deep.size() / n_starts);
+  for (std::size_t i = 0; i < deep.size(); i += stride)
+    {
+      Point<dim> x     = lattice.node(lattice.index(deep[i]));
+      double     depth = -shape.signed_distance(x);
+      for (double step = 0.5 * h; step > 1e-9 * h; step *= 0.5)
+        for (unsigned int side = 0; side < 2 * dim; ++side)
+          {
+            Point<dim> trial = x;
+            trial[side / 2] += side % 2 == 0 ? -step : step;
+            if (const double there = -shape.signed_distance(trial); there > depth)
+              {
+                depth = there;
+                x     = trial;
+              }
+          }
+      // The slope of a level set that is no distance, on the steeper side of ridges.
+      double square = 0;
+      for (unsigned int d = 0; d < dim && !shape.is_distance(); ++d)
+        {
+          const Tensor<1, dim> step = 1e-3 * h * Point<dim>::unit_vector(d);
+          square += std::pow(std::max(std::abs(shape.signed_distance(x + step) + depth),
+                                      std::abs(shape.signed_distance(x - step) + depth))
+                               / step.norm(),
+                             2);
+        }
+      radius = std::max(radius, square > 0 ? depth / std::sqrt(square) : depth);
+    }
+  return radius;
 }
 
 template <int dim>
@@ -115,6 +183,7 @@ make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
+  template double       inscribed_radius(const Shape<dim> &, const Lattice<dim> &);                \
   template Lattice<dim> make_lattice(const Shape<dim> &, const LatticeFrame<dim> &, double,        \
                                      const std::string &);                                         \
   template std::optional<Lattice<dim>> find_lattice(const Shape<dim> &, const LatticeFrame<dim> &, \

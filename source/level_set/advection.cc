@@ -271,8 +271,11 @@ advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const Incre
 template <int dim>
 AdvectionCount
 image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const NodalVectors<dim> &du,
-                 const NodalVectors<dim> &displacement)
+                 const NodalVectors<dim> &displacement, NodalVectors<dim> *moved_by)
 {
+  if (moved_by)
+    for (auto &component : *moved_by)
+      component.resize(lattice.values().size());
   assert_sizes<dim>(lattice, du);
   assert_sizes<dim>(lattice, displacement);
   const NodeSet<dim> nodes     = all_nodes(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()});
@@ -286,7 +289,12 @@ image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const Nodal
       {
         Point<dim> X = lattice.node(lattice.index(run.node + i));
         for (unsigned int d = 0; d < dim; ++d)
-          X[d] -= increment[d][run.packed + i] + u[d][run.packed + i];
+          {
+            const double way = increment[d][run.packed + i] + u[d][run.packed + i];
+            X[d] -= way;
+            if (moved_by)
+              (*moved_by)[d][run.node + i] = way;
+          }
         lattice.values()[run.node + i] = initial.value(X, 3);
       }
   return {1, n_unconverged, nodes.n_nodes};
@@ -328,8 +336,9 @@ advect_tiles(Lattice<dim> &lattice, const std::function<Tensor<1, dim>(const Poi
                                       const AdvectionScheme &);                                  \
   template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,       \
                                                 IncrementMotion, const AdvectionScheme &);       \
-  template AdvectionCount image_of_initial<dim>(                                                 \
-    Lattice<dim> &, const Lattice<dim> &, const NodalVectors<dim> &, const NodalVectors<dim> &); \
+  template AdvectionCount image_of_initial<dim>(Lattice<dim> &, const Lattice<dim> &,            \
+                                                const NodalVectors<dim> &,                       \
+                                                const NodalVectors<dim> &, NodalVectors<dim> *); \
   template AdvectionCount advect_tiles<dim>(                                                     \
     Lattice<dim> &, const std::function<Tensor<1, dim>(const Point<dim> &)> &, double);
 SCREE_INSTANTIATE(2)

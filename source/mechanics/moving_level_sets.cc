@@ -414,12 +414,20 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
     {
       const std::vector<double> old = phi.values();
       if (options.motion == IncrementMotion::reference_map)
-        result.n_unconverged
-          = image_of_initial<dim>(phi, *body.initial_level_set, v,
-                                  continued_field<dim>(phi, fields, displacement, cells))
-              .n_unconverged;
+        {
+          NodalVectors<dim> moved_by;
+          result.n_unconverged
+            = image_of_initial<dim>(phi, *body.initial_level_set, v,
+                                    continued_field<dim>(phi, fields, displacement, cells),
+                                    &moved_by)
+                .n_unconverged;
+          body.displacement = ExtendedIncrement<dim>(phi, std::move(moved_by));
+        }
       else
-        result.n_unconverged = advect_increment<dim>(phi, v, options.motion).n_unconverged;
+        {
+          result.n_unconverged = advect_increment<dim>(phi, v, options.motion).n_unconverged;
+          body.shape           = nullptr;
+        }
       result.n_islands = remove_islands<dim>(phi, old, known, v);
       ReinitialisationOptions reinitialisation;
       reinitialisation.tolerance = options.reinitialisation_tolerance;

@@ -217,23 +217,32 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (bodies[b].is_rigid())
         cut_rigid_body(b);
-  std::array<double, max_nodes_per_cell<dim>> values;
-  std::vector<double>                         scaled(max_nodes_per_cell<dim>);
+  const auto add_whole = [&](const unsigned int a) {
+    Piece piece{a, {}};
+    for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
+      piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
+    body_pieces.push_back(piece);
+  };
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell = fields.cells()[a];
       if (!cell.is_cut)
         {
-          Piece piece{a, {}};
-          for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
-            piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
-          body_pieces.push_back(piece);
+          add_whole(a);
           continue;
         }
-      level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values.data());
-      level_set_nodes.nudged(values.data(), fields.grid.cells()[cell.grid_cell].size,
-                             scaled.data());
-      cut_cell(a, scaled);
+      const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
+      if (cut.parts.empty())
+        cut_cell(a, std::vector<double>(cut.scaled.begin(), cut.scaled.end()));
+      for (const auto &part : cut.parts)
+        if (part.is_unit_cell())
+          add_whole(a);
+        else
+          for (auto &simplex : part.simplices())
+            {
+              orient<dim>(simplex);
+              body_pieces.push_back({a, simplex});
+            }
     }
 }
 

@@ -1,7 +1,9 @@
+#include <scree/discretization/polytope_rules.h>
 #include <scree/points/seeding.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace scree
@@ -55,6 +57,54 @@ sub_cell_parts(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const 
       result.points.push_back(corner + moment / (volume * m));
       result.weights.push_back(volume);
     }
+  return result;
+}
+
+/** The same of a body that is a set of convex parts. */
+template <int dim>
+CellPoints<dim>
+sub_cell_parts(const std::vector<Polytope<dim>> &parts, const unsigned int degree,
+               const double size, const unsigned int m)
+{
+  // Divided by the planes between the sub-cells, the pieces of each sub-cell gathered.
+  std::vector<Polytope<dim>> pieces = parts;
+  for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int i = 1; i < m; ++i)
+      {
+        const CellPlane<dim>       plane{Point<dim>::unit_vector(d), -double(i) / m};
+        std::vector<Polytope<dim>> next;
+        for (const auto &piece : pieces)
+          {
+            auto [below, above] = piece.split(plane, -1);
+            for (auto &part : {below, above})
+              if (part)
+                next.push_back(*part);
+          }
+        pieces = std::move(next);
+      }
+  std::map<unsigned int, std::pair<double, Tensor<1, dim>>> sums;
+  for (const auto &piece : pieces)
+    {
+      const Point<dim> middle   = piece.middle();
+      unsigned int     sub_cell = 0, stride = 1;
+      for (unsigned int d = 0; d < dim; ++d, stride *= m)
+        sub_cell += std::min(static_cast<unsigned int>(middle[d] * m), m - 1) * stride;
+      CellPoints<dim> rule;
+      append_rule(piece, degree, size, rule);
+      auto &[volume, moment] = sums[sub_cell];
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
+        {
+          volume += rule.weights[q];
+          moment += rule.weights[q] * Tensor<1, dim>(rule.points[q]);
+        }
+    }
+  CellPoints<dim> result;
+  for (const auto &[sub_cell, sum] : sums)
+    if (sum.first > 0.)
+      {
+        result.points.push_back(Point<dim>(sum.second / sum.first));
+        result.weights.push_back(sum.first);
+      }
   return result;
 }
 
@@ -159,7 +209,6 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
   Assert(m > 0, ExcMessage("A cell needs a point."));
   MaterialPoints<dim> points(n_internal);
   CutCellRules<dim>   rules(fields.basis);
-  double              values[max_nodes_per_cell<dim>], scaled[max_nodes_per_cell<dim>];
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell       = fields.cells()[a];
@@ -171,10 +220,11 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
           const CellPoints<dim> exact = quadrature_points(a);
           if (exact.points.empty())
             continue;
-          level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, values);
-          level_set_nodes.nudged(values, size, scaled);
-          parts = join_small_parts(sub_cell_parts(rules, fields.basis, scaled, size, m),
-                                   0.1 * sub_volume);
+          const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
+          parts                  = join_small_parts(
+                             cut.parts.empty() ? sub_cell_parts(rules, fields.basis, cut.scaled.data(), size, m)
+                                               : sub_cell_parts(cut.parts, fields.basis.degree, size, m),
+            0.1 * sub_volume);
           if (parts.points.empty())
             parts = exact;
           const double factor = std::accumulate(exact.weights.begin(), exact.weights.end(), 0.)

@@ -113,7 +113,7 @@ TEST(LevelSetNodes, ClassifiesCells)
   for (unsigned int c = 0; c < model.grid.n_owned_cells(); ++c)
     {
       const double y = model.grid.cells()[c].lower[1];
-      EXPECT_EQ(model.level_set_nodes->classify(c, model.bodies[0].level_set),
+      EXPECT_EQ(model.level_set_nodes->cut(c, model.bodies[0]).location,
                 y < 0.2   ? CellLocation::inside
                 : y < 0.4 ? CellLocation::cut
                           : CellLocation::outside);

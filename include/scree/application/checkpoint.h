@@ -38,11 +38,12 @@ struct BodyPlace
   std::vector<double>               level_set;                //!< nodal values [L]
   dealii::BoundingBox<dim>          box;
   typename RigidPose<dim>::Unknowns pose = {};
+  ExtendedIncrement<dim>            displacement; //!< x - X
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &lower &n_nodes &level_set &box &pose;
+    archive &lower &n_nodes &level_set &box &pose &displacement;
   }
 };
 

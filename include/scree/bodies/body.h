@@ -3,7 +3,7 @@
 #include <scree/bodies/boundary_condition.h>
 #include <scree/bodies/rigid_body.h>
 #include <scree/geometry/shape.h>
-#include <scree/level_set/lattice.h>
+#include <scree/level_set/extended_increment.h>
 #include <scree/material/increment_law.h>
 #include <scree/parameters/section.h>
 
@@ -58,14 +58,21 @@ struct Body
   std::shared_ptr<const Lattice<dim>> initial_level_set = nullptr;
   /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
   typename RigidPose<dim>::Unknowns pose = {};
-  /** At the start of a run; null if the body has none. */
+  /** At the start of a run; null if the body's motion has left it unknown. */
   std::shared_ptr<const Shape<dim>> shape = nullptr;
+  /** u = x - X where the body is now, X where it was at the start; empty if it has not moved. */
+  ExtendedIncrement<dim> displacement = {};
 
   bool is_rigid() const
   {
     return rigid != nullptr;
   }
 };
+
+/** Where the material that is at `x` was at the start of the run, where the body's shape sees it.
+ */
+template <int dim>
+dealii::Point<dim> initial_position(const Body<dim> &body, const dealii::Point<dim> &x);
 
 /**
  * Builds the bodies: shape -> lattice, with `margin` [L] around the shape. Rigid bodies may lie

@@ -16,6 +16,13 @@ struct CellPoints
   std::vector<dealii::Point<dim>>     points;
   std::vector<double>                 weights;
   std::vector<dealii::Tensor<1, dim>> normals; //!< surfaces only: unit, out of {phi < 0}
+
+  void append(const CellPoints &other)
+  {
+    points.insert(points.end(), other.points.begin(), other.points.end());
+    weights.insert(weights.end(), other.weights.begin(), other.weights.end());
+    normals.insert(normals.end(), other.normals.begin(), other.normals.end());
+  }
 };
 
 /** Points of many cells, one after the other: those of entry i are [begin[i], begin[i+1]). */
@@ -54,11 +61,19 @@ public:
   };
   Rules rules(const double *scaled, const double cell_size);
 
+  /** The same of a cut; exact on its convex parts for polynomials of degree 2k+1 (surface: 3k). */
+  Rules rules(const CellCut<dim> &cut, const double cell_size);
+
   /** Points of {phi < 0} on face `face` of a cell, in unit coordinates of the cell. */
   CellPoints<dim> face_rule(const double *scaled, const double cell_size, const unsigned int face);
 
+  /** The same of a cell that is not outside. */
+  CellPoints<dim> face_rule(const CellCut<dim> &cut, const double cell_size,
+                            const unsigned int face);
+
 private:
   class CellLevelSet;
+  const unsigned int                                                 degree;
   std::unique_ptr<CellLevelSet>                                      level_set;
   dealii::hp::QCollection<1>                                         gauss;
   dealii::NonMatching::QuadratureGenerator<dim>                      generator;

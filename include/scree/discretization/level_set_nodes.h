@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/lagrange.h>
+#include <scree/discretization/cell_cut.h>
 #include <scree/grid/background_grid.h>
 #include <scree/level_set/lattice.h>
 
@@ -8,14 +8,6 @@
 
 namespace scree
 {
-/** Where a cell lies with respect to a body. */
-enum class CellLocation : unsigned char
-{
-  outside,
-  inside,
-  cut
-};
-
 /**
  * Level sets as the finite element functions of degree k that quadrature and gaps use: nodal values
  * per cell, taken from a lattice at the cell's support points; hanging nodes are interpolated from
@@ -31,13 +23,21 @@ public:
   void cell_values(const unsigned int cell, const Lattice<dim> &lattice, double *values) const;
 
   /**
-   * phi/h for cutting: values with |phi| < 1e-12 h are moved to +1e-12, so that a contour on a grid
-   * line is cut exactly once, from the inside, without slivers.
+   * The same of a body as another one in the direction `towards` sees it: where the nearest parts
+   * of the boundary look away from there, as the far side of a thin body does, the value is that of
+   * the pieces which do not.
    */
+  void facing_values(const unsigned int cell, const Body<dim> &body,
+                     const dealii::Tensor<1, dim> &towards, double *values) const;
+
+  /** phi/h for cutting, see nudge(). */
   void nudged(const double *values, const double cell_size, double *scaled) const;
 
-  /** Where an owned cell lies with respect to the body of `lattice`. */
-  CellLocation classify(const unsigned int cell, const Lattice<dim> &lattice) const;
+  /**
+   * How a body lies in an owned cell: by its exact shape where that has kinks or several pieces,
+   * else by its level set.
+   */
+  CellCut<dim> cut(const unsigned int cell, const Body<dim> &body) const;
 
   const LagrangeBasis<dim> &basis() const
   {
@@ -45,6 +45,10 @@ public:
   }
 
 private:
+  /** Where the material at the nodes of a cell was at the start: where the shape sees them. */
+  std::vector<dealii::Point<dim>> initial_nodes(const unsigned int cell,
+                                                const Body<dim>   &body) const;
+
   /** A hanging node of a cell and the points that determine it. */
   struct HangingNode
   {

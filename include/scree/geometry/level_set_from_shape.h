@@ -25,4 +25,11 @@ Lattice<dim> make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &fram
 template <int dim>
 std::optional<Lattice<dim>> find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame,
                                          double margin, const std::string &where = "Shape");
+
+/**
+ * The radius of the largest ball in the shape [L], half the thickness of a thin one: the largest
+ * -phi, by a search from the deepest nodes of its lattice.
+ */
+template <int dim>
+double inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice);
 } // namespace scree

@@ -80,10 +80,13 @@ AdvectionCount advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &
  * phi_0 and u (length, nodal, at the start of the increment) by cubic interpolation. Nothing of the
  * old values enters, so that no errors of increments add up (reference map technique: Kamrin,
  * Rycroft, Nave, J. Mech. Phys. Solids 60, 2012).
+ *
+ * @param moved_by if given, becomes x - X at the nodes
  */
 template <int dim>
 AdvectionCount image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial,
-                                const NodalVectors<dim> &du, const NodalVectors<dim> &displacement);
+                                const NodalVectors<dim> &du, const NodalVectors<dim> &displacement,
+                                NodalVectors<dim> *moved_by = nullptr);
 
 /**
  * The semi-Lagrangian update of a lattice in tiles: `phi_new(x) = phi(X)`, `X + du(X) = x`, at

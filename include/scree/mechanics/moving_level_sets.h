@@ -1,12 +1,10 @@
 #pragma once
 
 #include <scree/discretization/fields.h>
-#include <scree/level_set/advection.h>
+#include <scree/level_set/extended_increment.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/vector.hpp>
 #include <vector>
 
 namespace scree
@@ -17,40 +15,6 @@ struct LevelSetMotion
   double          margin; //!< of the lattices around the bodies [L], as given to make_bodies()
   IncrementMotion motion                     = IncrementMotion::semi_lagrangian;
   double          reinitialisation_tolerance = 0.1; //!< of ||grad phi| - 1|
-};
-
-/**
- * The displacement increment of a body at the nodes of its lattice at the start of a step: finite
- * element values in its cells, continued linearly off them.
- */
-template <int dim>
-class ExtendedIncrement
-{
-public:
-  ExtendedIncrement() = default;
-
-  ExtendedIncrement(const Lattice<dim> &lattice, NodalVectors<dim> &&values);
-
-  /** The multilinear interpolant [L], at points outside the lattice the value of the nearest. */
-  dealii::Tensor<1, dim> operator()(const dealii::Point<dim> &x) const;
-
-  /** du at the nodes, x fastest. */
-  const NodalVectors<dim> &values() const
-  {
-    return nodal;
-  }
-
-  template <class Archive>
-  void serialize(Archive &archive, const unsigned int)
-  {
-    archive &first &spacing &n_nodes &nodal;
-  }
-
-private:
-  dealii::Point<dim>           first; // position of the first node
-  double                       spacing = 0.;
-  typename Lattice<dim>::Index n_nodes = {};
-  NodalVectors<dim>            nodal;
 };
 
 /** What the motion of one body found; all zero, and the increment empty, for rigid bodies. */

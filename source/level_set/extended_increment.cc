@@ -1,8 +1,7 @@
-#include <scree/mechanics/moving_level_sets.h>
+#include <scree/level_set/extended_increment.h>
 
 #include <algorithm>
 
-// Increments of bodies off their cells.
 namespace scree
 {
 template <int dim>
