@@ -1,13 +1,10 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
-#include <scree/contact/contact_reach.h>
-#include <scree/mechanics/linear_prediction.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -79,8 +76,7 @@ Simulation<dim>::discretise()
     quadrature.reset();
     fields.reset();
     level_set_nodes.reset();
-    if (is_moving() && step_control.n_accepted() > 0
-        && parameters.grid.refinement == GridRefinement::contact)
+    if (is_moving() && has_started() && parameters.grid.refinement == GridRefinement::contact)
       grid = std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator);
     std::vector<std::pair<unsigned int, unsigned int>> indices;
     for (const ContactPair &pair : pairs)
@@ -176,6 +172,7 @@ Simulation<dim>::run()
 {
   dealii::Timer wall;
   unsigned int  attempts = 1;
+  resolve_overlap();
   while (!step_control.finished())
     if (solve_step(step_control.next_time()))
       {
@@ -192,11 +189,7 @@ Simulation<dim>::run()
     else
       {
         ++attempts;
-        // A body that slides away does so in every attempt; two are enough to tell.
-        if (attempts > 2)
-          for (const auto &free : equilibrium->free_bodies())
-            if (slides_away(free.body))
-              throw_slides_away(free.body);
+        require_equilibrium_exists();
         require(step_control.reject(), "Time",
                 "the load step to time " + short_number(record.time)
                   + " was not solved, not even with the smallest step",
@@ -212,220 +205,6 @@ Simulation<dim>::run()
           }
       }
   report_end(wall.wall_time());
-}
-
-template <int dim>
-typename Equilibrium<dim>::Vector
-Simulation<dim>::extrapolated(const double time) const
-{
-  if (is_moving())
-    return predicted(time);
-  auto result = state.displacement;
-  result.add(time - state.time, last_increment);
-  return result;
-}
-
-template <int dim>
-typename Equilibrium<dim>::Vector
-Simulation<dim>::first_guess(const double time)
-{
-  using Vector     = typename Equilibrium<dim>::Vector;
-  Vector unchanged = state.displacement;
-  equilibrium->set_time(time, unchanged);
-  std::vector<Vector> guesses = {unchanged};
-  if (is_moving() ? predictor.step_size > 0. : last_increment.size() != 0)
-    {
-      guesses.push_back(extrapolated(time));
-      equilibrium->set_prescribed(guesses.back());
-    }
-  if (std::any_of(bodies.begin(), bodies.end(),
-                  [](const Body<dim> &body) { return body.is_rigid(); }))
-    try
-      {
-        guesses.push_back(linear_prediction<dim>(*equilibrium, state.contact, state.displacement,
-                                                 unchanged, [&](const Vector &b, Vector &x) {
-                                                   solve_linear_system(
-                                                     b, parameters.linear_solver.tolerance, x);
-                                                 }));
-      }
-    catch (const LinearSolverFailure &)
-      {
-        // The iteration starts without it.
-      }
-  unsigned int best     = 0;
-  double       smallest = std::numeric_limits<double>::max();
-  for (unsigned int i = 0; guesses.size() > 1 && i < guesses.size(); ++i)
-    {
-      Vector r(unchanged);
-      equilibrium->residual(guesses[i], state.contact, r);
-      if (r.l2_norm() < smallest)
-        {
-          best     = i;
-          smallest = r.l2_norm();
-        }
-    }
-  return guesses[best];
-}
-
-template <int dim>
-bool
-Simulation<dim>::solve_step(const double time)
-{
-  const unsigned int step   = step_control.n_accepted() + 1;
-  record                    = StepRecord();
-  record.step               = step;
-  record.time               = time;
-  auto               u      = first_guess(time);
-  const NewtonResult result = solve_equilibrium(u);
-  record.newton_iterations  = result.iterations;
-  record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
-  if (!result.converged())
-    {
-      explain_failure(result);
-      return false;
-    }
-  for (const auto &free : equilibrium->free_bodies())
-    if (lost_contact(free.body))
-      throw_slides_away(free.body);
-  if (is_moving())
-    {
-      const Timings::Scope scope(timings, "material points");
-      points_at_end            = moved_points(u);
-      const std::string reason = why_too_large();
-      if (!reason.empty())
-        {
-          log.line("Step " + std::to_string(step) + " to time " + short_number(time)
-                   + " is too large: " + reason);
-          return false;
-        }
-    }
-  equilibrium->accept(u, state.contact);
-  require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
-                               communicator);
-  if (is_moving())
-    {
-      predictor.step_size = time - state.time;
-      state.displacement  = u;
-      state.contact       = contact->current_history();
-      state.time          = time;
-      return true;
-    }
-  for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
-                                                  equilibrium->largest_displacements(u)))
-    if (warned_pairs.insert(pair).second)
-      log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
-               + " may have met, but were too far apart at the start for contact between them; "
-                 "raise Contact/Shift if they should touch");
-  last_increment = u;
-  last_increment -= state.displacement;
-  last_increment *= 1. / (time - state.time);
-  state.displacement = u;
-  state.contact      = contact->current_history();
-  state.time         = time;
-  for (unsigned int i = 0; i < was_closed.size(); ++i)
-    if (contact->responses()[i].pressure != 0.)
-      was_closed[i] = true;
-  return true;
-}
-
-template <int dim>
-std::vector<double>
-Simulation<dim>::contact_force_on_bodies() const
-{
-  std::vector<double> forces(bodies.size(), 0.);
-  const auto          summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
-    for (const unsigned int body : {contact->pairs()[p].a, contact->pairs()[p].b})
-      forces[body] += summaries[p].force.norm();
-  return forces;
-}
-
-template <int dim>
-bool
-Simulation<dim>::lost_contact(const unsigned int body) const
-{
-  return contact_force_on_bodies()[body] < 1e-3 * largest_contact_force[body];
-}
-
-template <int dim>
-bool
-Simulation<dim>::slides_away(const unsigned int body) const
-{
-  const auto not_held = equilibrium->bodies_not_held();
-  return lost_contact(body) || std::find(not_held.begin(), not_held.end(), body) != not_held.end();
-}
-
-template <int dim>
-LinearSolveResult
-Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
-                                     LinearSolver::Vector &du)
-{
-  const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  if (equilibrium->is_linear_but_for_contact()
-      && linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
-      && !equilibrium->has_free_rigid_bodies())
-    try
-      {
-        const Timings::Scope scope(timings, "linear solver");
-        if (!condensed_solver)
-          {
-            const auto system = equilibrium->condensation(false);
-            condensed_solver
-              = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
-          }
-        else if (condensed_solver->is_worth_updating())
-          condensed_solver->update(equilibrium->condensation(true).glued);
-        return condensed_solver->solve(equilibrium->tangent_changes(), dim, du, r);
-      }
-    catch (const LinearSolverFailure &)
-      {
-        // The full system tells what is wrong, if anything is.
-      }
-  const auto *matrix = [&]() {
-    const Timings::Scope scope(timings, "tangent");
-    return &equilibrium->tangent();
-  }();
-  const Timings::Scope scope(timings, "linear solver");
-  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric(), tolerance);
-}
-
-template <int dim>
-NewtonResult
-Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
-{
-  using Vector = typename Equilibrium<dim>::Vector;
-  Newton::Hooks hooks;
-  hooks.residual = [&](const Vector &u, Vector &r) {
-    const Timings::Scope scope(timings, "residual");
-    equilibrium->residual(u, state.contact, r);
-  };
-  hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
-    const auto solved = solve_linear_system(r, tolerance, du);
-    record.linear_iterations += solved.iterations;
-    equilibrium->shorten(du, grid->finest_size());
-  };
-  hooks.reference = [&]() {
-    return std::max(equilibrium->force_scale(),
-                    equilibrium->round_off() / parameters.newton.relative_tolerance);
-  };
-  largest_contact_force.assign(bodies.size(), 0.);
-  hooks.observe = [&](const NewtonIteration &iteration) {
-    if (!equilibrium->free_bodies().empty())
-      {
-        const auto forces = contact_force_on_bodies();
-        for (unsigned int b = 0; b < bodies.size(); ++b)
-          largest_contact_force[b] = std::max(largest_contact_force[b], forces[b]);
-      }
-    count_flips();
-    const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
-                             + short_number(iteration.residual) + " of "
-                             + short_number(iteration.tolerance);
-    if (parameters.output.log_iterations)
-      log.line("  " + text + ", step length " + short_number(iteration.step_length));
-    log.progress(step_control.time() / parameters.time.end_time,
-                 "step " + std::to_string(record.step) + ", " + text);
-  };
-  return Newton(parameters.newton, hooks).solve(u);
 }
 
 template <int dim>

@@ -19,7 +19,7 @@ void
 Simulation<dim>::set_up_points()
 {
   const Timings::Scope scope(timings, "material points");
-  if (step_control.n_accepted() == 0)
+  if (!has_started())
     seed_points();
   else
     {
@@ -215,7 +215,7 @@ Simulation<dim>::start_step()
   state.contact = recall(*contact, end.contact);
   keep_resultants(*contact, end.contact, state.contact, communicator);
   equilibrium->start_step(state.time, state.displacement, state.contact, end.energies,
-                          step_control.n_accepted() == 0 ? nullptr : &end.driving);
+                          !has_started() ? nullptr : &end.driving);
 }
 
 template <int dim>

@@ -83,8 +83,7 @@ Simulation<dim>::report_set_up()
   log.line("Contact points: " + std::to_string(n_points));
   for (const auto &free : equilibrium->free_bodies())
     log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
-             + " rigid motion(s) that only contact can hold; a vanishing artificial mass helps the "
-               "iteration");
+             + " rigid motion(s) that only contact can hold");
 }
 
 template <int dim>
@@ -154,29 +153,57 @@ Simulation<dim>::report_end(const double wall_time)
 
 template <int dim>
 void
-Simulation<dim>::throw_slides_away(const unsigned int body) const
+Simulation<dim>::throw_slides_away(const typename FreeBodies<dim>::Coordinates &motion,
+                                   const double                                 held_until)
 {
-  std::string contacts;
-  const auto  summaries = summarise_contact(*contact, communicator);
-  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
+  const auto  moves = equilibrium->free_motions().in_words(motion);
+  std::string what, alone;
+  bool        has_friction = false, turns = false;
+  for (const auto &body : moves)
     {
-      const ContactPair &pair = contact->pairs()[p];
-      if (pair.a != body && pair.b != body)
-        continue;
-      contacts += (contacts.empty() ? "" : "; ") + pair.name + " slips over "
-                  + short_number(summaries[p].slip) + ", sticks over "
-                  + short_number(summaries[p].stick) + ", is open over "
-                  + short_number(summaries[p].open)
-                  + (pair.law.law == ContactLaw::coulomb
-                       ? " (mu = " + short_number(pair.law.friction_coefficient) + ")"
-                       : "");
+      what += (what.empty() ? "" : ", ") + ("the body '" + bodies[body.body].name + "' ")
+              + body.in_words();
+      turns |= body.turns;
+      if (!equilibrium->free_motions().has_neighbours(body.body))
+        alone += (alone.empty() ? "" : ", ") + bodies[body.body].name;
     }
-  throw UserError(bodies[body].path,
-                  "the body '" + bodies[body].name + "' slides away before time "
-                    + short_number(record.time)
-                    + ": neither its supports nor contact resist all of its rigid motions"
-                    + (contacts.empty() ? "" : "; " + contacts),
-                  "support the body, or raise the friction if it should hold");
+  for (const ContactPair &pair : contact->pairs())
+    for (const auto &body : moves)
+      has_friction |= (pair.a == body.body || pair.b == body.body)
+                      && pair.law.law != ContactLaw::stick && pair.law.law != ContactLaw::tied;
+  std::string remedy = turns ? "hold it against turning, lower its loads or let them act nearer to "
+                               "what holds it"
+                             : "support it or lower its loads";
+  if (has_friction)
+    remedy += ", or raise the friction coefficient";
+  if (!alone.empty())
+    remedy = "no other body is within reach of " + alone
+             + ": support it, place it nearer to what shall hold it, or raise Contact/Shift";
+  throw UserError(bodies[moves.front().body].path,
+                  "no equilibrium exists at time " + short_number(record.time)
+                    + ": the body slides away, for no contact pressure and no friction within its "
+                      "limit balances the loads; driven by them "
+                    + what
+                    + (std::isnan(held_until)
+                         ? ""
+                         : "; they could be balanced up to time " + short_number(held_until)),
+                  remedy);
+}
+
+template <int dim>
+void
+Simulation<dim>::tell_what_is_loose()
+{
+  if (told_as_loose.size() == equilibrium->free_bodies().size())
+    return;
+  std::string names;
+  for (const unsigned int body : equilibrium->free_motions().not_held())
+    if (told_as_loose.insert(body).second)
+      names += (names.empty() ? "" : ", ") + bodies[body].name;
+  if (!names.empty())
+    log.line("Note: at time " + short_number(record.time)
+             + " neither supports nor closed contact resist some rigid motion of " + names
+             + "; no load drives it, and where it ends there is arbitrary");
 }
 
 template <int dim>
@@ -213,14 +240,16 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
              + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
 }
 
-#define SCREE_INSTANTIATE(dim)                                                \
-  template void Simulation<dim>::report_set_up();                             \
-  template void Simulation<dim>::check();                                     \
-  template void Simulation<dim>::plot() const;                                \
-  template void Simulation<dim>::report_step(const double);                   \
-  template void Simulation<dim>::report_end(const double);                    \
-  template void Simulation<dim>::throw_slides_away(const unsigned int) const; \
-  template void Simulation<dim>::count_flips();                               \
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template void Simulation<dim>::report_set_up();                                                 \
+  template void Simulation<dim>::check();                                                         \
+  template void Simulation<dim>::plot() const;                                                    \
+  template void Simulation<dim>::report_step(const double);                                       \
+  template void Simulation<dim>::report_end(const double);                                        \
+  template void Simulation<dim>::throw_slides_away(const typename FreeBodies<dim>::Coordinates &, \
+                                                   const double);                                 \
+  template void Simulation<dim>::tell_what_is_loose();                                            \
+  template void Simulation<dim>::count_flips();                                                   \
   template void Simulation<dim>::explain_failure(const NewtonResult &);
 
 SCREE_INSTANTIATE(2)

@@ -3,6 +3,8 @@
 #include <scree/contact/contact_points.h>
 #include <scree/level_set/closest_point.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -264,10 +266,13 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
           const auto              &law   = contact_pairs[point.pair].law;
           contact_jumps[p]               = jump;
           contact_means[p]               = 0.5 * sum;
-          contact_responses[p]           = contact_response<dim>(
-            law.law, law.friction_coefficient,
-            {point.initial_gap, point.normal, jump, history.jump[p], history.tau[p],
-                       history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+          const bool   without_friction  = !pair_allowances.empty() && law.law != ContactLaw::tied;
+          const double gap
+            = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
+          contact_responses[p] = contact_response<dim>(
+            without_friction ? ContactLaw::frictionless : law.law, law.friction_coefficient,
+            {gap, point.normal, jump, history.jump[p], history.tau[p], history.pressure[p],
+             eps_n(p), eps_t(p), touching_holds ? 1e-8 * point.cell_size : 0.});
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
               contact_feet[p][side.number()].X
@@ -275,6 +280,18 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               side.sign * point.weight * contact_responses[p].traction(point.normal));
         }
     }
+}
+
+template <int dim>
+std::vector<double>
+ContactPoints<dim>::overlaps(const MPI_Comm communicator) const
+{
+  std::vector<double> result(contact_pairs.size(), 0.);
+  for (const ContactPoint<dim> &point : contact_points)
+    if (contact_pairs[point.pair].law.law != ContactLaw::tied)
+      result[point.pair] = std::max(result[point.pair], -point.initial_gap);
+  dealii::Utilities::MPI::max(result, communicator, result);
+  return result;
 }
 
 template <int dim>

@@ -12,12 +12,6 @@
 
 namespace scree
 {
-namespace
-{
-/** Of E/L^2 times volume: the artificial mass that holds free bodies in the tangent. */
-constexpr double artificial_mass_factor = 1e-6;
-} // namespace
-
 template <int dim>
 Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                               Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
@@ -96,22 +90,18 @@ Equilibrium<dim>::set_up_artificial_mass()
     if (!bodies[free.body].is_rigid())
       {
         const double length = RigidMotions<dim>(bodies[free.body]).length();
-        factors[free.body]
-          = artificial_mass_factor * bodies[free.body].material->young() / (length * length);
+        factors[free.body]  = bodies[free.body].material->young() / (length * length);
       }
   bulk.add_lumped_volumes(artificial_mass, factors);
   artificial_mass.compress(dealii::VectorOperation::add);
   for (const FreeMotion &free : free_bodies())
     if (bodies[free.body].is_rigid())
       {
-        const double mass = artificial_mass_factor * rigid.stiffness_scale(free.body);
+        const double mass = rigid.stiffness_scale(free.body);
         for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
           if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
             artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
       }
-  // Rows without any other entry.
-  for (const DofIndex index : rigid.prescribed())
-    artificial_mass(index) = largest_stiffness;
   artificial_mass.compress(dealii::VectorOperation::insert);
 }
 
@@ -120,6 +110,7 @@ void
 Equilibrium<dim>::set_time(const double new_time, Vector &u)
 {
   time       = new_time;
+  is_driven  = true;
   dead_loads = 0.;
   bulk.add_body_forces(dead_loads, time);
   boundary_terms.add_loads(dead_loads, time, true, false);
@@ -129,6 +120,19 @@ Equilibrium<dim>::set_time(const double new_time, Vector &u)
   loads.compress(dealii::VectorOperation::add);
   loads += dead_loads;
   set_prescribed(u);
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::set_unloaded(Vector &u)
+{
+  Vector before(u);
+  set_time(0., u);
+  is_driven = false;
+  loads -= dead_loads;
+  dead_loads = 0.;
+  before -= u;
+  return before.linfty_norm() == 0. && loads.linfty_norm() == 0.;
 }
 
 template <int dim>
@@ -161,16 +165,51 @@ template <int dim>
 void
 Equilibrium<dim>::shorten(Vector &du, const double length) const
 {
-  double largest = 0.;
-  if (has_free_rigid_bodies())
-    for (const unsigned int body : bodies_not_held())
-      if (bodies[body].is_rigid())
-        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-          if (fields.owned().is_element(fields.rigid_unknown(body) + m))
-            largest = std::max(largest, std::abs(du(fields.rigid_unknown(body) + m)));
+  const std::vector<unsigned int> loose   = free.not_held();
+  double                          largest = 0.;
+  for (unsigned int i = 0; i < free_bodies().size() && !loose.empty(); ++i)
+    if (std::find(loose.begin(), loose.end(), free_bodies()[i].body) != loose.end())
+      for (const DofIndex unknown : free.unknowns(i))
+        largest = std::max(largest, std::abs(du(unknown)));
   largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
   if (largest > length)
     du *= length / largest;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_artificial_mass(const double factor)
+{
+  mass_factor = factor;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::artificial_work(const Vector &du) const
+{
+  double work = 0.;
+  for (unsigned int i = 0; i < free_bodies().size(); ++i)
+    for (const DofIndex unknown : free.unknowns(i))
+      work += mass_factor * artificial_mass(unknown) * du(unknown) * du(unknown);
+  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+Equilibrium<dim>::unbalanced_loads() const
+{
+  Vector forces(internal_forces);
+  reactions(forces);
+  forces += contact_forces;
+  forces *= -1.;
+  const auto loads_on_motions = free.resultants(forces);
+  auto       result           = free.unbalanced(loads_on_motions);
+  double     norm             = 0.;
+  for (const double load : loads_on_motions)
+    norm += load * load;
+  for (double &part : result)
+    part /= norm == 0. ? 1. : std::sqrt(norm);
+  return result;
 }
 
 template <int dim>
@@ -187,7 +226,10 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
   contact_forces.compress(dealii::VectorOperation::add);
-  rigid.applied(ghosted, time, applied_forces);
+  if (is_driven)
+    rigid.applied(ghosted, time, applied_forces);
+  else
+    applied_forces = 0.;
   stiffness.vmult(internal_forces, u);
   if (!is_linear_but_for_contact())
     {
@@ -253,7 +295,10 @@ Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
 {
   for (const DofIndex index : fields.owned())
     if (artificial_mass(index) != 0.)
-      matrix.add(index, index, artificial_mass(index));
+      matrix.add(index, index, mass_factor * artificial_mass(index));
+  // Rows without any other entry.
+  for (const DofIndex index : rigid.prescribed())
+    matrix.add(index, index, largest_stiffness);
 }
 
 template <int dim>

@@ -145,6 +145,14 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
 }
 
 template <int dim>
+void
+Equilibrium<dim>::count_overlap()
+{
+  current_energies.transfer = 0.;
+  current_energies.external_work += -current_energies.balance_error();
+}
+
+template <int dim>
 double
 Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
 {
@@ -317,6 +325,7 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
   template double Equilibrium<dim>::released_work(const Vector &, const ContactHistory<dim> &)            \
     const;                                                                                                \
   template void               Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
+  template void               Equilibrium<dim>::count_overlap();                                          \
   template double             Equilibrium<dim>::store_energies(const Vector &);                           \
   template unsigned int       Equilibrium<dim>::n_rigid_unknowns() const;                                 \
   template void               Equilibrium<dim>::start_step(const double, const Vector &,                  \

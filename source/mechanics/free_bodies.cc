@@ -1,7 +1,109 @@
+#include <scree/base/log.h>
 #include <scree/mechanics/free_bodies.h>
+#include <scree/solver/cone_projection.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace scree
 {
+namespace
+{
+using DenseMatrix = dealii::FullMatrix<double>;
+
+/** An eigenvalue below this part of the trace resists nothing. */
+constexpr double negligible = 1e-6;
+
+/** Columns: the null space of a symmetric positive semi-definite matrix. */
+DenseMatrix
+null_space(const DenseMatrix &matrix)
+{
+  const unsigned int               n = matrix.m();
+  dealii::LAPACKFullMatrix<double> copy(n, n);
+  double                           trace = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    trace += matrix(i, i);
+  DenseMatrix vectors;
+  if (trace == 0.)
+    return dealii::IdentityMatrix(n);
+  copy = matrix;
+  dealii::Vector<double> values;
+  copy.compute_eigenvalues_symmetric(-trace, negligible * trace, 0., values, vectors);
+  return vectors;
+}
+
+/** Sums the entries of all matrices over all processes at once. */
+void
+sum_over_processes(std::vector<DenseMatrix> &matrices, const MPI_Comm communicator)
+{
+  std::vector<double> all;
+  for (const auto &matrix : matrices)
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      all.insert(all.end(), matrix.begin(i), matrix.end(i));
+  dealii::Utilities::MPI::sum(all, communicator, all);
+  auto value = all.begin();
+  for (auto &matrix : matrices)
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      for (unsigned int j = 0; j < matrix.n(); ++j)
+        matrix(i, j) = *value++;
+}
+
+/** Unit vectors that span the plane normal to n. */
+template <int dim>
+std::array<dealii::Tensor<1, dim>, dim - 1>
+tangents_of(const dealii::Tensor<1, dim> &n)
+{
+  std::array<dealii::Tensor<1, dim>, dim - 1> result;
+  if constexpr (dim == 2)
+    result[0] = dealii::cross_product_2d(n);
+  else
+    {
+      dealii::Tensor<1, dim> axis;
+      axis[std::abs(n[0]) < 0.6 ? 0 : 1] = 1.;
+      result[0]                          = axis - (axis * n) * n;
+      result[0] /= result[0].norm();
+      result[1] = dealii::cross_product_3d(n, result[0]);
+    }
+  return result;
+}
+
+/** Edges of the cone of tractions on b; in 3D a pyramid around Coulomb's cone. */
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
+{
+  constexpr unsigned int              n_edges = dim == 2 ? 2 : 8;
+  const auto                          tangent = tangents_of<dim>(n);
+  std::vector<dealii::Tensor<1, dim>> result;
+  if (law.law == ContactLaw::none)
+    return result;
+  if (law.law == ContactLaw::frictionless || law.friction_coefficient == 0.)
+    return {n};
+  for (unsigned int k = 0; k < n_edges; ++k)
+    {
+      const double           angle = 2. * dealii::numbers::PI * k / n_edges;
+      dealii::Tensor<1, dim> t     = std::cos(angle) * tangent[0];
+      if constexpr (dim == 3)
+        t += std::sin(angle) * tangent[1];
+      if (law.law == ContactLaw::coulomb)
+        result.push_back(n
+                         + law.friction_coefficient
+                             / (dim == 2 ? 1. : std::cos(dealii::numbers::PI / n_edges)) * t);
+      else
+        result.push_back(t);
+    }
+  result.push_back(n);
+  if (law.law == ContactLaw::tied)
+    result.push_back(-n);
+  return result;
+}
+} // namespace
+
 template <int dim>
 FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                             const StrongSupports<dim> &supports,
@@ -12,73 +114,346 @@ FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<di
     , boundary_terms(boundary_terms)
     , contact(contact)
     , communicator(fields.grid.communicator())
+    , number_of(bodies.size(), none)
 {
+  std::vector<Motions> motions;
+  for (const auto &body : bodies)
+    motions.emplace_back(body);
+  const auto held = resistance_of_supports(motions);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const RigidMotions<dim>    motions(bodies[b]);
-      dealii::FullMatrix<double> held   = resistance_of_supports(b, motions);
-      const unsigned int         n_free = motions.n_free(held, communicator);
-      if (n_free > 0)
-        free_motions.push_back({b, n_free});
+      const DenseMatrix basis = null_space(held[b]);
+      if (basis.n() == 0)
+        continue;
+      number_of[b] = free_motions.size();
+      free_motions.push_back({b, static_cast<unsigned int>(basis.n())});
+      rigid_motions.push_back(motions[b]);
+      bases.push_back(basis);
+      first.push_back(n_coordinates);
+      n_coordinates += basis.n();
+    }
+  find_unknowns(fields);
+}
+
+template <int dim>
+std::vector<DenseMatrix>
+FreeBodies<dim>::resistance_of_supports(const std::vector<Motions> &motions) const
+{
+  std::vector<DenseMatrix> held;
+  for (const Motions &of_body : motions)
+    held.push_back(of_body.no_resistance());
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int m = 0; m < Motions::n_motions && bodies[b].is_rigid(); ++m)
+        if (!bodies[b].rigid->is_free(m))
+          motions[b].add_motion_resistance(m, held[b]);
+  for (const auto &unknown : supports.unknowns())
+    {
+      const unsigned int b = supports.conditions()[unknown.support].first;
+      motions[b].add_resistance(unknown.position, unknown.component, 1., held[b]);
+    }
+  for (const auto &region : boundary_terms.regions())
+    {
+      const ConditionType type = region.condition->parameters.type;
+      const unsigned int  b    = region.body;
+      if (type == ConditionType::traction || type == ConditionType::pressure)
+        continue;
+      for (const unsigned int component : region.condition->components)
+        if (component >= dim)
+          {
+            if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+              motions[b].add_motion_resistance(Motions::n_motions - 1, held[b]);
+          }
+        else if (type == ConditionType::mean_support)
+          {
+            // Only the mean is held, that of a rigid motion is the motion of the centre.
+            if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+              motions[b].add_resistance(region.centre, component, 1., held[b]);
+          }
+        else
+          for (const auto &point : region.points)
+            motions[b].add_resistance(point.position, component, 1., held[b]);
+    }
+  sum_over_processes(held, communicator);
+  return held;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
+{
+  free_unknowns.resize(free_motions.size());
+  positions.resize(free_motions.size());
+  components.resize(free_motions.size());
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    {
+      const unsigned int b = free_motions[i].body;
+      for (unsigned int m = 0; bodies[b].is_rigid() && m < Motions::n_motions; ++m)
+        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
+          free_unknowns[i].push_back(fields.rigid_unknown(b) + m);
+    }
+  std::vector<bool> is_known(fields.owned().n_elements(), false);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    {
+      const ActiveCell  &cell = fields.cells()[a];
+      const unsigned int i    = number_of[cell.body];
+      if (i == none)
+        continue;
+      const auto &geometry = fields.grid.cells()[cell.grid_cell];
+      for (unsigned int k = 0; k < fields.basis.n_nodes; ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const DofIndex unknown = fields.nodes(a)[k] + d;
+            if (!fields.owned().is_element(unknown)
+                || fields.hanging_constraints().is_constrained(unknown)
+                || is_known[fields.owned().index_within_set(unknown)])
+              continue;
+            is_known[fields.owned().index_within_set(unknown)] = true;
+            free_unknowns[i].push_back(unknown);
+            components[i].push_back(d);
+            positions[i].push_back(geometry.lower
+                                   + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(k)));
+          }
     }
 }
 
 template <int dim>
-dealii::FullMatrix<double>
-FreeBodies<dim>::resistance_of_supports(const unsigned int       body,
-                                        const RigidMotions<dim> &motions) const
+void
+FreeBodies<dim>::append_column(const ContactPoint<dim>      &point,
+                               const dealii::Tensor<1, dim> &direction, Coordinates &columns) const
 {
-  dealii::FullMatrix<double> held = motions.no_resistance();
-  if (bodies[body].is_rigid())
-    for (unsigned int m = 0; m < motions.n_motions; ++m)
-      if (!bodies[body].rigid->is_free(m))
-        motions.add_motion_resistance(m, held);
-  for (const auto &unknown : supports.unknowns())
-    if (supports.conditions()[unknown.support].first == body)
-      motions.add_resistance(unknown.position, unknown.component, 1., held);
-  for (const auto &region : boundary_terms.regions())
+  const ContactPair &pair  = contact.pairs()[point.pair];
+  const std::size_t  begin = columns.size();
+  columns.resize(begin + n_coordinates, 0.);
+  for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
     {
-      const ConditionType type = region.condition->parameters.type;
-      if (region.body != body || type == ConditionType::traction || type == ConditionType::pressure)
+      const unsigned int i = number_of[body];
+      if (i == none)
         continue;
-      for (const auto &point : region.points)
-        for (const unsigned int component : region.condition->components)
-          {
-            if (component < dim)
-              motions.add_resistance(point.position, component, 1., held);
-            else
-              motions.add_motion_resistance(motions.n_motions - 1, held);
-          }
+      for (unsigned int m = 0; m < Motions::n_motions; ++m)
+        {
+          const double along = sign * (rigid_motions[i].motion(m, point.position) * direction);
+          for (unsigned int k = 0; k < bases[i].n(); ++k)
+            columns[begin + first[i] + k] += along * bases[i](m, k);
+        }
     }
-  return held;
+}
+
+template <int dim>
+std::vector<typename FreeBodies<dim>::Coordinates>
+FreeBodies<dim>::not_resisted() const
+{
+  if (n_coordinates == 0)
+    return {};
+  // A matrix per pair over the motions of its two bodies, so that pairs of many points do not
+  // drown others.
+  std::vector<std::vector<unsigned int>> coordinates(contact.pairs().size());
+  std::vector<DenseMatrix>               of_pair;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
+        for (unsigned int k = 0; number_of[body] != none && k < bases[number_of[body]].n(); ++k)
+          coordinates[p].push_back(first[number_of[body]] + k);
+      of_pair.emplace_back(coordinates[p].size(), coordinates[p].size());
+    }
+  Coordinates column;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto &point    = contact.points()[i];
+      const auto &response = contact.responses()[i];
+      const auto &law      = contact.pairs()[point.pair].law;
+      if (response.pressure == 0. && law.law != ContactLaw::tied)
+        continue;
+      std::vector<dealii::Tensor<1, dim>> directions = {point.normal};
+      if (response.status == ContactStatus::stick && law.law != ContactLaw::frictionless)
+        for (const auto &tangent : tangents_of<dim>(point.normal))
+          directions.push_back(tangent);
+      const auto &c = coordinates[point.pair];
+      for (const auto &direction : directions)
+        {
+          column.clear();
+          append_column(point, direction, column);
+          for (unsigned int k = 0; k < c.size(); ++k)
+            for (unsigned int l = 0; l < c.size(); ++l)
+              of_pair[point.pair](k, l) += column[c[k]] * column[c[l]];
+        }
+    }
+  sum_over_processes(of_pair, communicator);
+  DenseMatrix all(n_coordinates, n_coordinates);
+  for (unsigned int p = 0; p < of_pair.size(); ++p)
+    {
+      const double trace = of_pair[p].m() == 0 ? 0. : of_pair[p].trace();
+      for (unsigned int k = 0; trace > 0. && k < of_pair[p].m(); ++k)
+        for (unsigned int l = 0; l < of_pair[p].m(); ++l)
+          all(coordinates[p][k], coordinates[p][l]) += of_pair[p](k, l) / trace;
+    }
+  const DenseMatrix        vectors = null_space(all);
+  std::vector<Coordinates> result;
+  for (unsigned int j = 0; j < vectors.n(); ++j)
+    {
+      result.emplace_back(n_coordinates);
+      for (unsigned int i = 0; i < n_coordinates; ++i)
+        result.back()[i] = vectors(i, j);
+    }
+  return result;
 }
 
 template <int dim>
 std::vector<unsigned int>
 FreeBodies<dim>::not_held() const
 {
+  constexpr double          takes_part = 1e-3;
+  const auto                null       = not_resisted();
   std::vector<unsigned int> result;
-  for (const FreeMotion &free : free_motions)
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
     {
-      const RigidMotions<dim> motions(bodies[free.body]);
-      auto                    held = resistance_of_supports(free.body, motions);
-      for (unsigned int i = 0; i < contact.points().size(); ++i)
-        {
-          const auto &point = contact.points()[i];
-          const auto &pair  = contact.pairs()[point.pair];
-          if ((pair.a != free.body && pair.b != free.body) || contact.responses()[i].pressure == 0.)
-            continue;
-          motions.add_resistance(point.position, point.normal, 1., held);
-          if (contact.responses()[i].status == ContactStatus::stick)
-            for (unsigned int d = 0; d < dim; ++d)
-              motions.add_resistance(point.position, d, 1., held);
-        }
-      if (motions.n_free(held, communicator) > 0)
-        result.push_back(free.body);
+      double part = 0.;
+      for (const Coordinates &motion : null)
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          part += std::pow(motion[first[i] + k], 2);
+      if (part > takes_part)
+        result.push_back(free_motions[i].body);
     }
   return result;
 }
 
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const
+{
+  Coordinates result(n_coordinates, 0.);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+      {
+        const DofIndex unknown = free_unknowns[i][j];
+        for (unsigned int m = 0; m < Motions::n_motions; ++m)
+          {
+            double along = 0.;
+            if (bodies[free_motions[i].body].is_rigid())
+              along = j == m ? 1. : 0.;
+            else
+              along = rigid_motions[i].motion(m, positions[i][j])[components[i][j]];
+            for (unsigned int k = 0; k < bases[i].n(); ++k)
+              result[first[i] + k] += along * bases[i](m, k) * forces(unknown);
+          }
+      }
+  dealii::Utilities::MPI::sum(result, communicator, result);
+  return result;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::unbalanced(const Coordinates &resultants) const
+{
+  // Pairs that touch can press where they touch nearly, others wherever they may meet.
+  constexpr double    nearly = 0.25; // cells
+  std::vector<double> nearest(contact.pairs().size(), std::numeric_limits<double>::max());
+  const auto          distance = [&](const unsigned int i) {
+    const double h = contact.points()[i].cell_size;
+    return std::min(contact.gap(i), contact.points()[i].initial_gap) / h;
+  };
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    nearest[contact.points()[i].pair] = std::min(nearest[contact.points()[i].pair], distance(i));
+  dealii::Utilities::MPI::min(nearest, communicator, nearest);
+  Coordinates columns;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    if (const auto &point = contact.points()[i];
+        nearest[point.pair] > nearly || distance(i) <= nearly)
+      for (const auto &edge : edges_of_cone<dim>(contact.pairs()[point.pair].law, point.normal))
+        append_column(point, edge, columns);
+  const auto gathered = dealii::Utilities::MPI::gather(communicator, columns);
+  columns.clear();
+  for (const Coordinates &of_process : gathered)
+    columns.insert(columns.end(), of_process.begin(), of_process.end());
+  Coordinates result;
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    result = unbalanced_part(resultants, columns);
+  return dealii::Utilities::MPI::broadcast(communicator, result);
+}
+
+template <int dim>
+bool
+FreeBodies<dim>::has_neighbours(const unsigned int body) const
+{
+  const bool found = std::any_of(contact.points().begin(), contact.points().end(),
+                                 [&](const ContactPoint<dim> &point) {
+                                   const ContactPair &pair = contact.pairs()[point.pair];
+                                   return pair.a == body || pair.b == body;
+                                 });
+  return dealii::Utilities::MPI::max(static_cast<unsigned int>(found), communicator) == 1;
+}
+
+template <int dim>
+std::vector<LooseMotion<dim>>
+FreeBodies<dim>::in_words(const Coordinates &motion) const
+{
+  constexpr double              small_part = 0.1, small_turn = 0.02;
+  std::vector<LooseMotion<dim>> result;
+  double                        largest = 0.;
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    {
+      std::array<double, Motions::n_motions> q = {};
+      for (unsigned int m = 0; m < q.size(); ++m)
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          q[m] += bases[i](m, k) * motion[first[i] + k];
+      dealii::Tensor<1, dim> v;
+      dealii::Tensor<1, 3>   omega;
+      for (unsigned int m = 0; m < q.size(); ++m)
+        if (m < dim)
+          v[m] = q[m];
+        else
+          omega[dim == 2 ? 2 : m - dim] = q[m] / rigid_motions[i].length();
+      const double     turn = omega.norm() * rigid_motions[i].length();
+      LooseMotion<dim> words{free_motions[i].body,
+                             v.norm() + turn,
+                             turn > small_turn * v.norm(),
+                             rigid_motions[i].fixed_point(),
+                             v,
+                             omega[2] > 0. ? 1. : -1.};
+      largest = std::max(largest, words.size);
+      if (words.turns)
+        {
+          if constexpr (dim == 2)
+            words.centre += dealii::Tensor<1, 2>({-v[1], v[0]}) / omega[2];
+          else
+            {
+              words.centre += dealii::cross_product_3d(omega, v) / omega.norm_square();
+              words.direction = omega;
+            }
+        }
+      if (words.direction.norm() > 0.)
+        words.direction /= words.direction.norm();
+      result.push_back(words);
+    }
+  result.erase(
+    std::remove_if(result.begin(), result.end(),
+                   [&](const LooseMotion<dim> &body) { return body.size < small_part * largest; }),
+    result.end());
+  std::sort(result.begin(), result.end(),
+            [](const auto &a, const auto &b) { return a.size > b.size; });
+  return result;
+}
+
+template <int dim>
+std::string
+LooseMotion<dim>::in_words() const
+{
+  const auto rounded = [](const auto &vector, const double unit) {
+    dealii::Point<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = unit * std::round(vector[d] / unit) + 0.;
+    return short_place(result);
+  };
+  if (!turns)
+    return "moves along " + rounded(direction, 1e-3);
+  if (dim == 3)
+    return "turns about the axis through " + short_place(centre) + " along "
+           + rounded(direction, 1e-3);
+  return "turns about " + short_place(centre) + (sense > 0. ? " counter-clockwise" : " clockwise");
+}
+
+template struct LooseMotion<2>;
+template struct LooseMotion<3>;
 template class FreeBodies<2>;
 template class FreeBodies<3>;
 } // namespace scree

@@ -21,6 +21,15 @@ constexpr double       round_off_increment  = 1e-10;
 constexpr double       forcing_factor       = 0.9;
 constexpr double       forcing_safeguard    = 0.1;
 constexpr double       final_linear_factor  = 0.1;
+constexpr double       first_part           = 0.5;
+constexpr unsigned int stall_iterations     = 8;
+constexpr double       stall_reduction      = 0.7;
+constexpr double       first_mass           = 0.1;
+constexpr double       smallest_mass        = 1e-6;
+constexpr double       largest_mass         = 10;
+constexpr double       energy_overshoot     = 0.5;
+constexpr double       energy_reduction     = 0.1;
+constexpr unsigned int max_energy_trials    = 16;
 
 const EnumNames<LineSearch> line_search_names
   = {{LineSearch::none, "none"}, {LineSearch::residual, "residual"}, {LineSearch::work, "work"}};
@@ -60,6 +69,17 @@ is_round_off_plateau(const std::vector<double> &residuals, const NewtonIteration
          && residuals[n - 1] > 0.5 * residuals[n - 2] && residuals[n - 2] > 0.5 * residuals[n - 3]
          && iteration.increment <= iteration.step_length * round_off_increment * norm_of_u;
 }
+
+/** Whether the residual ceased to fall, see the class documentation. */
+bool
+is_stalled(const std::vector<double> &residuals)
+{
+  if (residuals.size() <= stall_iterations + 1)
+    return false;
+  const auto middle = residuals.end() - stall_iterations;
+  return *std::min_element(middle, residuals.end())
+         > stall_reduction * *std::min_element(residuals.begin(), middle);
+}
 } // namespace
 
 void
@@ -70,7 +90,8 @@ NewtonParameters::declare(const ParameterSection &section)
   section.entry("Absolute tolerance", absolute_tolerance, dealii::Patterns::Double(0.),
                 "Added to the relative tolerance times the forces [force].");
   section.entry("Maximum iterations", max_iterations, dealii::Patterns::Integer(1),
-                "A load step that needs more is cut.");
+                "A load step that needs more is cut. Where Newton's method stalls, a second method "
+                "with an artificial mass goes on; its iterations count too.");
   section.entry(
     "Loosest linear tolerance", loosest_linear_tolerance, dealii::Patterns::Double(0., 0.1),
     "Iterative linear solvers are asked for this at first and for more as the iteration "
@@ -88,6 +109,14 @@ struct Newton::Step
   double       norm        = 0;
   Vector       u;
   Vector       r;
+};
+
+/** What the method of the iteration is. */
+struct Newton::Progress
+{
+  bool         is_transient = false;
+  double       mass         = 0.; //!< s
+  unsigned int iterations   = 0;  //!< before this method
 };
 
 Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
@@ -170,13 +199,81 @@ Newton::search(const Vector &u, const Vector &du, const Vector &r, const double 
   return search_work(std::move(step), u, du, r * du);
 }
 
+/** Zero of a decreasing G in (0, b) with G(0) > 0 > G(b): Illinois, bisection where that is slow.
+ */
+Newton::Step
+Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const
+{
+  Step step;
+  step.r.reinit(r, true);
+  evaluate(step, 1., u, du);
+  for (unsigned int k = 0; k < max_halvings && !std::isfinite(step.norm); ++k)
+    evaluate(step, step.alpha / 4, u, du);
+  const double mass = hooks.mass_work(du), start = r * du;
+  const auto   G = [&]() { return step.r * du - step.alpha * mass; };
+  double       a = 0., G_a = start, b = step.alpha, G_b = G(), last = G_b, before = start;
+  if (start > 0. && std::isfinite(step.norm) && G_b < -energy_overshoot * start)
+    for (unsigned int k = 0; k < max_energy_trials && std::abs(last) > energy_reduction * start;
+         ++k)
+      {
+        const double secant = (a * G_b - b * G_a) / (G_b - G_a);
+        const bool   slow   = k > 1 && std::abs(last) > 0.5 * std::abs(before);
+        evaluate(step,
+                 !slow         ? secant
+                 : a > 0.1 * b ? 0.5 * (a + b)
+                               : std::sqrt(std::max(a, 0.01 * b) * b),
+                 u, du);
+        before = last;
+        last   = G();
+        if (last > 0.)
+          {
+            a   = step.alpha;
+            G_a = last;
+            G_b *= 0.5;
+          }
+        else
+          {
+            b   = step.alpha;
+            G_b = last;
+            G_a *= 0.5;
+          }
+      }
+  if (step.alpha > 0.5)
+    progress.mass = std::max(smallest_mass, 0.1 * progress.mass);
+  else if (step.alpha < 0.2)
+    progress.mass = std::min(largest_mass, 4. * progress.mass);
+  return step;
+}
+
 NewtonResult
 Newton::solve(Vector &u) const
 {
+  const Vector start(u);
+  Progress     progress;
+  NewtonResult result = iterate(u, progress);
+  if (result.converged() || !hooks.set_mass)
+    return result;
+  u                     = start;
+  progress.is_transient = true;
+  progress.mass         = first_mass;
+  progress.iterations   = result.iterations;
+  NewtonResult second   = iterate(u, progress);
+  hooks.set_mass(smallest_mass);
+  second.residuals.insert(second.residuals.begin(), result.residuals.begin(),
+                          result.residuals.end());
+  if (!second.converged())
+    second.message = result.message + "; with an artificial mass: " + second.message;
+  return second;
+}
+
+NewtonResult
+Newton::iterate(Vector &u, Progress &progress) const
+{
   NewtonResult    result;
   NewtonIteration iteration;
-  Vector          r(u), du(u);
-  double          linear_tolerance = parameters.loosest_linear_tolerance;
+  iteration.number = progress.iterations;
+  Vector r(u), du(u);
+  double linear_tolerance = parameters.loosest_linear_tolerance;
   hooks.residual(u, r);
   iteration.residual = r.l2_norm();
 
@@ -209,7 +306,12 @@ Newton::solve(Vector &u) const
       if (is_round_off_plateau(result.residuals, iteration, u.l2_norm()))
         return ended_as(NewtonStatus::converged_at_round_off,
                         told("ended at round-off in %u iterations, |r| = %.3e (tolerance %.3e)"));
-      if (iteration.number >= parameters.max_iterations)
+      if (hooks.set_mass && !progress.is_transient && is_stalled(result.residuals))
+        return ended_as(NewtonStatus::stalled,
+                        told("stalled in iteration %u, |r| = %.3e (tolerance %.3e)"));
+      if (iteration.number >= (hooks.set_mass && !progress.is_transient
+                                 ? first_part * parameters.max_iterations
+                                 : parameters.max_iterations))
         return ended_as(NewtonStatus::max_iterations,
                         told("not converged in %u iterations, |r| = %.3e (tolerance %.3e)"));
 
@@ -217,6 +319,8 @@ Newton::solve(Vector &u) const
                                       parameters.loosest_linear_tolerance);
       try
         {
+          if (progress.is_transient)
+            hooks.set_mass(progress.mass);
           hooks.solve(u, r, linear_tolerance, du);
         }
       catch (const LinearSolverFailure &failure)
@@ -225,7 +329,8 @@ Newton::solve(Vector &u) const
           return ended_as(NewtonStatus::linear_solver_failure, failure.what());
         }
 
-      const Step step             = search(u, du, r, iteration.residual);
+      const Step step             = progress.is_transient ? search_energy(u, du, r, progress)
+                                                          : search(u, du, r, iteration.residual);
       u                           = step.u;
       r                           = step.r;
       iteration.residual          = step.norm;

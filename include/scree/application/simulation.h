@@ -141,19 +141,39 @@ private:
   typename Equilibrium<dim>::Vector first_guess(const double time);
   typename Equilibrium<dim>::Vector extrapolated(const double time) const;
   bool                              solve_step(const double time);
-  NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
+  /**
+   * Before the first step bodies that overlap find their equilibrium without friction and without
+   * loads, on a moving geometry in parts: then nothing has slipped yet, friction begins with tau =
+   * 0, and the energy that the overlap brought in is external work. Where that fails, or something
+   * is prescribed at t = 0 already, the first step resolves the overlap.
+   */
+  void resolve_overlap();
+  /** One part of it, which leaves the overlaps of the pairs times `left`. */
+  bool resolve_part(const std::vector<double> &overlaps, const double left);
+  /** Whether the geometry has moved or a step was accepted. */
+  bool has_started() const
+  {
+    return overlap_is_resolved || step_control.n_accepted() > 0;
+  }
+  NewtonResult solve_equilibrium(typename Equilibrium<dim>::Vector &u);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
    * where that pays. */
-  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
-                                          LinearSolver::Vector &du);
-  void                report_step(const double wall_time);
-  void                report_end(const double wall_time);
-  [[noreturn]] void   throw_slides_away(const unsigned int body) const;
-  std::vector<double> contact_force_on_bodies() const;
-  /** Whether the contact force on a body vanished in the course of the Newton iterations. */
-  bool lost_contact(const unsigned int body) const;
-  /** Whether neither supports nor contact resist all motions of a body, or it lost its contact. */
-  bool slides_away(const unsigned int body) const;
+  LinearSolveResult solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                        LinearSolver::Vector &du);
+  void              report_step(const double wall_time);
+  void              report_end(const double wall_time);
+  /**
+   * What of the loads of `time` on free bodies no contact can balance, a part of the loads, and the
+   * motion they drive, see FreeBodies::unbalanced(); geometry and contact of the start of the step.
+   */
+  double unbalanced_part(const double time, typename FreeBodies<dim>::Coordinates &motion);
+  /** @throws UserError if no contact can balance the loads of the step that failed. */
+  void require_equilibrium_exists();
+  /** @param held_until NaN: not even the loads of the start of the step are balanced */
+  [[noreturn]] void throw_slides_away(const typename FreeBodies<dim>::Coordinates &motion,
+                                      const double                                 held_until);
+  /** Tells once of each body that nothing holds at the end of a step. */
+  void tell_what_is_loose();
   /** Makes pictures of the output directory by contrib/plot, where it is installed. */
   void plot() const;
   /** Counts the contact points of each pair that changed their state since the last iteration. */
@@ -192,7 +212,9 @@ private:
   std::vector<PointTotals<dim>>        points_before;  //!< by body, at the end of the last step
   MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
   Predictor<dim>                       predictor;      //!< on a moving geometry
-  std::vector<double> largest_contact_force;           //!< on each body in this step's iterations
+  std::set<unsigned int>               told_as_loose;  //!< bodies
+  bool                                 overlap_is_resolved = false;
+  bool                                 is_transient        = false; //!< K has more artificial mass
   std::set<std::pair<unsigned int, unsigned int>>
                              warned_pairs; //!< told once; (b, b): body b at the box
   std::vector<bool>          was_closed;   //!< contact points, at the end of some step

@@ -74,6 +74,28 @@ public:
   /** History of an unloaded surface. */
   ContactHistory<dim> initial_history() const;
 
+  /**
+   * Whether points that touch without pressure, gaps from 0 to 1e-8 h, count as closed in the
+   * tangent: so a body that touches without load is held before anything has moved.
+   */
+  void set_touching_holds(const bool holds)
+  {
+    touching_holds = holds;
+  }
+
+  /**
+   * Resolves initial overlap: no friction until the next call, but what is tied stays tied, and the
+   * gaps of each pair are larger by its allowance [L]. Empty: friction again, and no allowance.
+   */
+  void resolve_overlap(const std::vector<double> &allowances)
+  {
+    pair_allowances = allowances;
+  }
+
+  /** Largest overlap of each pair without displacement, 0: none; tied ones have none. Collective.
+   */
+  std::vector<double> overlaps(const MPI_Comm communicator) const;
+
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
   void evaluate(const Vector &u, const ContactHistory<dim> &history);
 
@@ -196,7 +218,9 @@ private:
                            dealii::FullMatrix<double>   &block) const;
 
   std::vector<ContactPair>            contact_pairs;
-  std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
+  std::vector<double>                 pair_modulus;    //!< E = 2/(1/E_a + 1/E_b)
+  std::vector<double>                 pair_allowances; //!< while overlap is resolved
+  bool                                touching_holds = true;
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;

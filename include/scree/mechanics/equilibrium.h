@@ -28,6 +28,9 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
+  /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
+  static constexpr double default_mass_factor = 1e-6;
+
   Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
 
@@ -53,6 +56,12 @@ public:
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
+
+  /** The same for time 0 without loads, until the next call; false: something is prescribed. */
+  bool set_unloaded(Vector &u);
+
+  /** Takes what the accepted state stores as external work: overlapping bodies were assembled. */
+  void count_overlap();
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
@@ -85,10 +94,16 @@ public:
   bool is_symmetric() const;
 
   /**
-   * Shortens the increment `du` of the last residual() such that no rigid body that nothing holds
-   * moves farther than `length`: the artificial mass alone would send it anywhere (collective).
+   * Shortens the increment `du` of the last residual() such that no body that nothing holds moves
+   * farther than `length`: the artificial mass alone would send it anywhere (collective).
    */
   void shorten(Vector &du, const double length) const;
+
+  /** Sets the artificial mass in the tangent, `factor` E/L^2 per volume, L half the body's size. */
+  void set_artificial_mass(const double factor);
+
+  /** du . M du with the artificial mass M (collective). */
+  double artificial_work(const Vector &du) const;
 
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
@@ -106,14 +121,17 @@ public:
     return free.motions();
   }
 
-  /**
-   * Free bodies that the contact of the last residual() does not hold either: with their unresisted
-   * motions there is no equilibrium under a further load.
-   */
-  std::vector<unsigned int> bodies_not_held() const
+  /** Free bodies, and what supports and the contact of the last residual() leave to them. */
+  const FreeBodies<dim> &free_motions() const
   {
-    return free.not_held();
+    return free;
   }
+
+  /**
+   * What of the loads on the free bodies no contact can balance, see FreeBodies::unbalanced(), as a
+   * part of the loads: a motion of length 0 to 1. Of the last residual() (collective).
+   */
+  typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
   /** Whether the motion of a rigid body is unknown. */
   bool has_free_rigid_bodies() const;
@@ -196,15 +214,17 @@ private:
   Vector internal_forces; //!< A u of the last residual()
   Vector contact_forces;  //!< -R_contact of the last residual()
   Vector applied_forces;  //!< on rigid bodies at the last residual()
-  Vector artificial_mass; //!< on the diagonal for free bodies and prescribed rigid components
+  Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet ghosted_dofs;
   double           time              = 0.;
   double           accepted_time     = 0.;
   bool             is_unloaded       = true; //!< nothing was prescribed at the accepted state
+  bool             is_driven         = true; //!< forces act on rigid bodies
   double           start_time        = 0.;   //!< of the step on a moving geometry
-  double           largest_stiffness = 0.;   //!< largest diagonal entry of A
-  double           displacement_norm = 0.;   //!< |u| of the last residual()
+  double           mass_factor       = default_mass_factor;
+  double           largest_stiffness = 0.; //!< largest diagonal entry of A
+  double           displacement_norm = 0.; //!< |u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies                      current_energies;

@@ -5,6 +5,7 @@
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 
+#include <string>
 #include <vector>
 
 namespace scree
@@ -16,11 +17,34 @@ struct FreeMotion
   unsigned int n_free; //!< number of free rigid motions
 };
 
-/** Which bodies supports do not hold, and which of them contact does not hold either. */
+/** A motion of a free body as a whole. */
+template <int dim>
+struct LooseMotion
+{
+  unsigned int           body;
+  double                 size;      //!< largest displacement over the body's box, of 1 for all [-]
+  bool                   turns;     //!< a rotation, else a translation
+  dealii::Point<dim>     centre;    //!< of the rotation [L]
+  dealii::Tensor<1, dim> direction; //!< of the translation; in 3D the axis of the rotation
+  double                 sense;     //!< of the rotation in 2D: 1 counter-clockwise, -1 clockwise
+
+  /** "moves along (1, 0)", "turns about (0.5, 0)". */
+  std::string in_words() const;
+};
+
+/**
+ * Bodies that supports do not hold, and what contact does about their rigid motions. Contact
+ * couples bodies, so that all motions are looked at together: the coordinates are those of the
+ * rigid motions z that supports leave to each body (null space of the sum of m(x) m(x)^T over what
+ * is supported), lengths scaled by the size of the body.
+ */
 template <int dim>
 class FreeBodies
 {
 public:
+  /** Of all free bodies, one after the other; rotations have the dimension of a length. */
+  using Coordinates = std::vector<double>;
+
   FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
              const StrongSupports<dim> &supports, const BoundaryTerms<dim> &boundary_terms,
              const ContactPoints<dim> &contact);
@@ -31,12 +55,56 @@ public:
     return free_motions;
   }
 
-  /** Those that the contact of the last evaluation does not hold either (collective). */
+  /**
+   * Motions that the contact of the last evaluation does not resist: the null space of the sum of
+   * the outer products of what closed points feel of the coordinates, along the normal and, where
+   * they stick, along the tangents; pairs count alike (collective).
+   */
+  std::vector<Coordinates> not_resisted() const;
+
+  /** The free bodies that take part in such a motion (collective). */
   std::vector<unsigned int> not_held() const;
 
+  /**
+   * Resultants of forces: what they do on the coordinates (collective).
+   * @param forces by unknown, without ghosts
+   */
+  Coordinates resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const;
+
+  /**
+   * What of resultants no contact can balance: pressures >= 0 and friction within Coulomb's cone
+   * (in 3D a pyramid around it) at all contact points, of pairs that touch at those with gaps up to
+   * h/4. Not zero: there is no
+   * equilibrium, and the result is a motion that no contact resists and the forces drive (Farkas'
+   * lemma, see unbalanced_part()). Collective.
+   */
+  Coordinates unbalanced(const Coordinates &resultants) const;
+
+  /** The motions of the bodies that move at least a tenth as much as the one that moves most. */
+  std::vector<LooseMotion<dim>> in_words(const Coordinates &motion) const;
+
+  /** Whether any contact point lies between the body and another one (collective). */
+  bool has_neighbours(const unsigned int body) const;
+
+  /** Unknowns of the displacement or pose of a free body on this process. */
+  const std::vector<DofIndex> &unknowns(const unsigned int free_body) const
+  {
+    return free_unknowns[free_body];
+  }
+
 private:
-  dealii::FullMatrix<double> resistance_of_supports(const unsigned int       body,
-                                                    const RigidMotions<dim> &motions) const;
+  using Motions = RigidMotions<dim>;
+
+  static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+
+  /** Sums of m(x) m(x)^T over the supports of all bodies. */
+  std::vector<dealii::FullMatrix<double>>
+       resistance_of_supports(const std::vector<Motions> &motions) const;
+  void find_unknowns(const Fields<dim> &fields);
+  /** Appends what the coordinates do to the relative motion at a contact point along `direction`.
+   */
+  void append_column(const ContactPoint<dim> &point, const dealii::Tensor<1, dim> &direction,
+                     Coordinates &columns) const;
 
   const std::vector<Body<dim>> &bodies;
   const StrongSupports<dim>    &supports;
@@ -44,5 +112,14 @@ private:
   const ContactPoints<dim>     &contact;
   MPI_Comm                      communicator;
   std::vector<FreeMotion>       free_motions;
+  // Of the free bodies.
+  std::vector<Motions>                         rigid_motions;
+  std::vector<dealii::FullMatrix<double>>      bases; //!< columns: free motions in the rigid ones
+  std::vector<unsigned int>                    first; //!< coordinate
+  std::vector<std::vector<DofIndex>>           free_unknowns;
+  std::vector<std::vector<dealii::Point<dim>>> positions;  //!< where these unknowns are
+  std::vector<std::vector<unsigned int>>       components; //!< which of the displacement
+  std::vector<unsigned int>                    number_of;  //!< of each body among the free ones
+  unsigned int                                 n_coordinates = 0;
 };
 } // namespace scree

@@ -2,8 +2,7 @@
 
 #include <scree/discretization/fields.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <vector>
@@ -89,24 +88,10 @@ public:
     resistance(m, m) += 1.;
   }
 
-  /** How many independent motions nothing resists (collective). */
-  unsigned int n_free(const Resistance &local, const MPI_Comm communicator) const
+  /** The point that rotations leave where it is [L]. */
+  const dealii::Point<dim> &fixed_point() const
   {
-    dealii::LAPACKFullMatrix<double> total(n_motions, n_motions);
-    double                           trace = 0.;
-    for (unsigned int m = 0; m < n_motions; ++m)
-      for (unsigned int n = 0; n < n_motions; ++n)
-        {
-          total(m, n) = dealii::Utilities::MPI::sum(local(m, n), communicator);
-          if (m == n)
-            trace += total(m, n);
-        }
-    if (trace == 0.)
-      return n_motions;
-    dealii::FullMatrix<double> eigenvectors;
-    dealii::Vector<double>     eigenvalues;
-    total.compute_eigenvalues_symmetric(-trace, 1e-6 * trace, 0., eigenvalues, eigenvectors);
-    return eigenvalues.size();
+    return centre;
   }
 
 private:

@@ -27,9 +27,10 @@ struct NewtonParameters
   /** In the unit of the residual (force); >= 0. */
   double absolute_tolerance = 0;
 
-  unsigned int max_iterations = 25;
+  /** Of both methods together. */
+  unsigned int max_iterations = 60;
 
-  LineSearch line_search = LineSearch::residual;
+  LineSearch line_search = LineSearch::work;
 
   /** The loosest relative tolerance of a linear system, 0 <= . < 1; 0: always as tight as can be.
    */
@@ -67,6 +68,7 @@ enum class NewtonStatus
   converged,
   converged_at_round_off,
   max_iterations,
+  stalled, //!< the residual did not fall for many iterations
   diverged,
   linear_solver_failure
 };
@@ -116,6 +118,19 @@ struct NewtonResult
  * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the
  * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
  *
+ * *Pseudo-transient continuation:* with an artificial mass M, Newton's method ends as stalled when
+ * the smallest residual of the last 8 iterations is not below 0.7 of the smallest before them. From
+ * the first guess a second method goes on, as it does after any other failure: proximal steps
+ * (Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998, 508-523),
+ *
+ *     (K(u) + s M) du = r(u),    G(alpha) = r(u + alpha du) . du - alpha s du . M du,
+ *
+ * where alpha = 1 if |G(1)| <= G(0)/2 or G(1) > 0, else |G(alpha)| <= G(0)/10: near the minimum
+ * along du of the energy plus s |u' - u|_M^2/2, where there is an energy. s is 0.1 at first, a
+ * tenth after a step of alpha > 1/2 and four times as large after one of alpha < 0.2. M holds what
+ * moves freely and never enters r: what converged is in balance without it, and as s vanishes
+ * convergence becomes quadratic.
+ *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
  * the caller goes back to its saved state.
@@ -143,6 +158,12 @@ public:
 
     /** Told of each iteration; may be empty. */
     std::function<void(const NewtonIteration &)> observe;
+
+    /** Sets the factor of the artificial mass M in K; empty: there is none. */
+    std::function<void(double factor)> set_mass;
+
+    /** du . M du with the present factor. */
+    std::function<double(const Vector &du)> mass_work;
   };
 
   /** Keeps copies of both. */
@@ -156,6 +177,11 @@ public:
 
 private:
   struct Step;
+  struct Progress;
+
+  NewtonResult iterate(Vector &u, Progress &progress) const;
+
+  Step search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const;
 
   Step search(const Vector &u, const Vector &du, const Vector &r, const double norm) const;
 

@@ -1,0 +1,322 @@
+#include <scree/application/simulation.h>
+#include <scree/base/exceptions.h>
+#include <scree/contact/contact_reach.h>
+#include <scree/mechanics/linear_prediction.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// How a load step finds its equilibrium.
+namespace scree
+{
+template <int dim>
+typename Equilibrium<dim>::Vector
+Simulation<dim>::extrapolated(const double time) const
+{
+  if (is_moving())
+    return predicted(time);
+  auto result = state.displacement;
+  result.add(time - state.time, last_increment);
+  return result;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Vector
+Simulation<dim>::first_guess(const double time)
+{
+  using Vector     = typename Equilibrium<dim>::Vector;
+  Vector unchanged = state.displacement;
+  equilibrium->set_time(time, unchanged);
+  std::vector<Vector> guesses = {unchanged};
+  if (is_moving() ? predictor.step_size > 0. : last_increment.size() != 0)
+    {
+      guesses.push_back(extrapolated(time));
+      equilibrium->set_prescribed(guesses.back());
+    }
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [](const Body<dim> &body) { return body.is_rigid(); }))
+    try
+      {
+        guesses.push_back(linear_prediction<dim>(*equilibrium, state.contact, state.displacement,
+                                                 unchanged, [&](const Vector &b, Vector &x) {
+                                                   solve_linear_system(
+                                                     b, parameters.linear_solver.tolerance, x);
+                                                 }));
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The iteration starts without it.
+      }
+  unsigned int best     = 0;
+  double       smallest = std::numeric_limits<double>::max();
+  for (unsigned int i = 0; guesses.size() > 1 && i < guesses.size(); ++i)
+    {
+      Vector r(unchanged);
+      equilibrium->residual(guesses[i], state.contact, r);
+      if (r.l2_norm() < smallest)
+        {
+          best     = i;
+          smallest = r.l2_norm();
+        }
+    }
+  return guesses[best];
+}
+
+template <int dim>
+bool
+Simulation<dim>::solve_step(const double time)
+{
+  const unsigned int step   = step_control.n_accepted() + 1;
+  record                    = StepRecord();
+  record.step               = step;
+  record.time               = time;
+  auto               u      = first_guess(time);
+  const NewtonResult result = solve_equilibrium(u);
+  record.newton_iterations  = result.iterations;
+  record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
+  if (!result.converged())
+    {
+      explain_failure(result);
+      return false;
+    }
+  tell_what_is_loose();
+  if (is_moving())
+    {
+      const Timings::Scope scope(timings, "material points");
+      points_at_end            = moved_points(u);
+      const std::string reason = why_too_large();
+      if (!reason.empty())
+        {
+          log.line("Step " + std::to_string(step) + " to time " + short_number(time)
+                   + " is too large: " + reason);
+          return false;
+        }
+    }
+  equilibrium->accept(u, state.contact);
+  require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
+                               communicator);
+  if (is_moving())
+    {
+      predictor.step_size = time - state.time;
+      state.displacement  = u;
+      state.contact       = contact->current_history();
+      state.time          = time;
+      return true;
+    }
+  for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
+                                                  equilibrium->largest_displacements(u)))
+    if (warned_pairs.insert(pair).second)
+      log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
+               + " may have met, but were too far apart at the start for contact between them; "
+                 "raise Contact/Shift if they should touch");
+  last_increment = u;
+  last_increment -= state.displacement;
+  last_increment *= 1. / (time - state.time);
+  state.displacement = u;
+  state.contact      = contact->current_history();
+  state.time         = time;
+  for (unsigned int i = 0; i < was_closed.size(); ++i)
+    if (contact->responses()[i].pressure != 0.)
+      was_closed[i] = true;
+  return true;
+}
+
+template <int dim>
+LinearSolveResult
+Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                     LinearSolver::Vector &du)
+{
+  const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
+  if (!is_transient && equilibrium->is_linear_but_for_contact()
+      && linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
+      && !equilibrium->has_free_rigid_bodies())
+    try
+      {
+        const Timings::Scope scope(timings, "linear solver");
+        if (!condensed_solver)
+          {
+            const auto system = equilibrium->condensation(false);
+            condensed_solver
+              = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
+          }
+        else if (condensed_solver->is_worth_updating())
+          condensed_solver->update(equilibrium->condensation(true).glued);
+        return condensed_solver->solve(equilibrium->tangent_changes(), dim, du, r);
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The full system tells what is wrong, if anything is.
+      }
+  const auto *matrix = [&]() {
+    const Timings::Scope scope(timings, "tangent");
+    return &equilibrium->tangent();
+  }();
+  const Timings::Scope scope(timings, "linear solver");
+  return linear_solver->solve(*matrix, du, r, equilibrium->is_symmetric(), tolerance);
+}
+
+template <int dim>
+NewtonResult
+Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
+{
+  using Vector = typename Equilibrium<dim>::Vector;
+  Newton::Hooks hooks;
+  hooks.residual = [&](const Vector &u, Vector &r) {
+    const Timings::Scope scope(timings, "residual");
+    equilibrium->residual(u, state.contact, r);
+  };
+  hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
+    const auto solved = solve_linear_system(r, tolerance, du);
+    record.linear_iterations += solved.iterations;
+    contact->set_touching_holds(false);
+    equilibrium->shorten(du, grid->finest_size());
+  };
+  hooks.reference = [&]() {
+    return std::max(equilibrium->force_scale(),
+                    equilibrium->round_off() / parameters.newton.relative_tolerance);
+  };
+  contact->set_touching_holds(true);
+  if (!equilibrium->free_bodies().empty())
+    {
+      hooks.set_mass = [&](const double factor) {
+        is_transient = factor > Equilibrium<dim>::default_mass_factor;
+        equilibrium->set_artificial_mass(factor);
+      };
+      hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
+    }
+  hooks.observe = [&](const NewtonIteration &iteration) {
+    count_flips();
+    const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
+                             + short_number(iteration.residual) + " of "
+                             + short_number(iteration.tolerance);
+    if (parameters.output.log_iterations)
+      log.line("  " + text + ", step length " + short_number(iteration.step_length));
+    log.progress(step_control.time() / parameters.time.end_time,
+                 "step " + std::to_string(record.step) + ", " + text);
+  };
+  return Newton(parameters.newton, hooks).solve(u);
+}
+
+template <int dim>
+bool
+Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double left)
+{
+  record       = StepRecord();
+  auto u       = state.displacement;
+  auto allowed = overlaps;
+  for (double &overlap : allowed)
+    overlap *= left;
+  contact->resolve_overlap(allowed);
+  equilibrium->set_unloaded(u);
+  const NewtonResult result = solve_equilibrium(u);
+  record.newton_iterations  = result.iterations;
+  bool is_solved            = result.converged();
+  if (is_solved && is_moving())
+    {
+      points_at_end = moved_points(u);
+      is_solved     = why_too_large().empty();
+    }
+  if (is_solved)
+    {
+      equilibrium->accept(u, state.contact);
+      equilibrium->count_overlap();
+      state.displacement  = u;
+      state.contact       = contact->current_history();
+      overlap_is_resolved = true;
+      if (is_moving())
+        move_geometry();
+    }
+  contact->resolve_overlap({});
+  return is_solved;
+}
+
+template <int dim>
+void
+Simulation<dim>::resolve_overlap()
+{
+  constexpr double negligible = 1e-6; // cells
+  const auto       overlaps   = contact->overlaps(communicator);
+  const double     largest
+    = overlaps.empty() ? 0. : *std::max_element(overlaps.begin(), overlaps.end());
+  auto u = state.displacement;
+  if (has_started() || largest < negligible * grid->finest_size() || !equilibrium->set_unloaded(u))
+    return;
+  TimeParameters parts;
+  parts.minimum_step_fraction = 1. / 1024;
+  StepControl  control(parts);
+  unsigned int n_iterations = 0;
+  bool         goes_on      = true;
+  while (goes_on && !control.finished())
+    {
+      const bool is_solved = resolve_part(overlaps, 1. - control.next_time());
+      n_iterations += record.newton_iterations;
+      if (is_solved)
+        control.accept(record.newton_iterations);
+      else
+        goes_on = control.reject();
+    }
+  if (goes_on)
+    log.line("Overlap at the start is resolved without friction in "
+             + std::to_string(control.n_accepted()) + " part(s) and " + std::to_string(n_iterations)
+             + " iterations");
+  else
+    log.line("Warning: the overlap at the start is resolved without friction only to "
+             + short_number(100. * control.time())
+             + "%; the first step resolves the rest, with friction");
+}
+
+template <int dim>
+double
+Simulation<dim>::unbalanced_part(const double time, typename FreeBodies<dim>::Coordinates &motion)
+{
+  auto u = state.displacement;
+  auto r = u;
+  equilibrium->set_time(time, u);
+  equilibrium->residual(u, state.contact, r);
+  motion      = equilibrium->unbalanced_loads();
+  double norm = 0.;
+  for (const double part : motion)
+    norm += part * part;
+  return std::sqrt(norm);
+}
+
+template <int dim>
+void
+Simulation<dim>::require_equilibrium_exists()
+{
+  // Less than what cut quadrature leaves in the resultants of loads, nothing is said about it.
+  constexpr double                      smallest_part = 1e-3;
+  constexpr unsigned int                n_bisections  = 12;
+  typename FreeBodies<dim>::Coordinates motion;
+  if (equilibrium->free_bodies().empty() || unbalanced_part(record.time, motion) < smallest_part)
+    return;
+  typename FreeBodies<dim>::Coordinates other;
+  double                                held = state.time, lost = record.time;
+  const bool                            was_held = unbalanced_part(held, other) < smallest_part;
+  for (unsigned int i = 0; i < n_bisections && was_held; ++i)
+    {
+      const double middle                                            = 0.5 * (held + lost);
+      (unbalanced_part(middle, other) < smallest_part ? held : lost) = middle;
+    }
+  throw_slides_away(motion, was_held ? held : std::numeric_limits<double>::quiet_NaN());
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
+  template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
+  template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
+  template void Simulation<dim>::resolve_overlap();                                                \
+  template bool Simulation<dim>::solve_step(const double);                                         \
+  template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \
+    const LinearSolver::Vector &, const double, LinearSolver::Vector &);                           \
+  template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
+  template double       Simulation<dim>::unbalanced_part(const double,                             \
+                                                         typename FreeBodies<dim>::Coordinates &); \
+  template void         Simulation<dim>::require_equilibrium_exists();
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree
