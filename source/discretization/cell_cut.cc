@@ -26,6 +26,15 @@ struct Leaf
   bool          is_inside;
 };
 
+/** Whether a contour passes so near to a node that Saye's rules may lose half the cell. */
+template <int dim>
+bool
+is_close_to_node(const CellCut<dim> &cut, const unsigned int n_nodes)
+{
+  return std::any_of(cut.scaled.begin(), cut.scaled.begin() + n_nodes,
+                     [](const double value) { return std::abs(value) < 1e-6; });
+}
+
 template <int dim>
 class Cutter
 {
@@ -255,7 +264,8 @@ Cutter<dim>::cut()
         {
           const auto &piece       = pieces[piece_of_plane[facet->plane]];
           const bool  is_reversed = facet->normal * planes[facet->plane].normal < 0.;
-          if (const auto result = smooth(is_reversed ? piece.reversed() : piece, false))
+          const auto  result      = smooth(is_reversed ? piece.reversed() : piece, false);
+          if (result && !(piece.is_plane() && is_close_to_node(*result, basis.n_nodes)))
             return *result;
           break;
         }

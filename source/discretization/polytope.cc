@@ -219,14 +219,17 @@ Polytope<dim>::as_box() const
           lower[d] = std::min(lower[d], x[d]);
           upper[d] = std::max(upper[d], x[d]);
         }
+  // Each side of the box is a facet.
+  unsigned int sides = 0;
   for (const auto &facet : facets)
-    if (facet.vertices.size() != (1u << (dim - 1)))
-      return {};
-  for (const auto &facet : facets)
-    for (const auto &x : facet.vertices)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (std::min(x[d] - lower[d], upper[d] - x[d]) > tolerance)
-          return {};
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const bool above : {false, true})
+        if (const double plane = above ? upper[d] : lower[d];
+            std::all_of(facet.vertices.begin(), facet.vertices.end(),
+                        [&](const auto &x) { return std::abs(x[d] - plane) <= tolerance; }))
+          sides |= 1u << (2 * d + above);
+  if (sides != (1u << 2 * dim) - 1)
+    return {};
   return std::make_pair(lower, upper);
 }
 

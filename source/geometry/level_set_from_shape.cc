@@ -161,7 +161,7 @@ inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice)
                                / step.norm(),
                              2);
         }
-      radius = std::max(radius, square > 0 ? depth / std::sqrt(square) : depth);
+      radius = std::max(radius, shape.is_distance() ? depth : depth / std::sqrt(square));
     }
   return radius;
 }

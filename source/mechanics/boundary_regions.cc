@@ -1,5 +1,5 @@
 #include <scree/base/exceptions.h>
-#include <scree/mechanics/boundary_regions.h>
+#include <scree/mechanics/load_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,34 +13,45 @@ find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes
             const CutQuadrature<dim> &quadrature, const Body<dim> &body,
             const StepStart<dim> *start, BoundaryRegion<dim> &region)
 {
-  CutCellRules<dim>                           rules(fields.basis);
-  std::array<double, max_nodes_per_cell<dim>> values, scaled;
-  const unsigned int                          face = region.condition->box_face;
+  CutCellRules<dim>  rules(fields.basis);
+  const unsigned int face = region.condition->box_face;
+  // Loads see the exact boundary; what holds a body acts on the cut one, as the bulk does, and so
+  // does a pressure all around, whose uniform stress is then exact.
+  const auto &parameters = region.condition->parameters;
+  const bool  is_whole   = parameters.where == "1";
+  const bool  is_load    = (parameters.type == ConditionType::traction
+                        || (parameters.type == ConditionType::pressure
+                            && !(is_whole && face == BoundaryCondition<dim>::no_face)))
+                       && !start && body.shape;
+  std::function<bool(const dealii::Point<dim> &)> selects; // none: all
+  if (!is_whole)
+    selects = [&](const dealii::Point<dim> &x) { return region.condition->selects(x); };
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell = fields.cells()[a];
       if (cell.body != region.body)
         continue;
       const auto     &geometry = fields.grid.cells()[cell.grid_cell];
+      const bool      on_face  = face != BoundaryCondition<dim>::no_face;
       CellPoints<dim> points;
-      if (face == BoundaryCondition<dim>::no_face)
+      if (on_face ? !geometry.iterator->at_boundary(face) : !cell.is_cut)
+        continue;
+      if (!on_face && !is_load)
         {
-          for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1];
-               ++q)
-            {
-              points.points.push_back(quadrature.surface.points[q]);
-              points.weights.push_back(quadrature.surface.weights[q]);
-              points.normals.push_back(quadrature.surface.normals[q]);
-            }
+          const auto &surface = quadrature.surface;
+          const auto  first = surface.begin[a], last = surface.begin[a + 1];
+          points.points.assign(surface.points.begin() + first, surface.points.begin() + last);
+          points.weights.assign(surface.weights.begin() + first, surface.weights.begin() + last);
+          points.normals.assign(surface.normals.begin() + first, surface.normals.begin() + last);
         }
       else
         {
-          const auto &iterator = geometry.iterator;
-          if (!iterator->at_boundary(face))
-            continue;
-          level_set_nodes.cell_values(cell.grid_cell, body.level_set, values.data());
-          level_set_nodes.nudged(values.data(), geometry.size, scaled.data());
-          points = rules.face_rule(scaled.data(), geometry.size, face);
+          const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
+          points = is_load ? load_rule<dim>(rules, fields.basis, geometry, *body.shape, cut, face,
+                                            selects)
+                           : rules.face_rule(cut, geometry.size, face);
+          if (is_load && on_face)
+            points.append(strip_on_face(*body.shape, fields.basis, geometry, cut, face));
         }
       for (unsigned int q = 0; q < points.points.size(); ++q)
         {
@@ -48,6 +59,8 @@ find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes
             = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
           BoundaryPoint<dim> point = {
             a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
+          if (is_load && face == BoundaryCondition<dim>::no_face)
+            move_to_boundary(*body.shape, geometry, point);
           if (start)
             {
               const auto   then        = start->deformation({a, points.points[q]});

@@ -421,6 +421,15 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
                                     continued_field<dim>(phi, fields, displacement, cells),
                                     &moved_by)
                 .n_unconverged;
+          // Interpolants of the initial level set would round corners.
+          if (body.shape && !body.shape->is_smooth() && body.shape->is_distance())
+            for (std::size_t i = 0; i < phi.values().size(); ++i)
+              {
+                dealii::Point<dim> X = phi.node(phi.index(i));
+                for (unsigned int d = 0; d < dim; ++d)
+                  X[d] -= moved_by[d][i];
+                phi.values()[i] = body.shape->signed_distance(X);
+              }
           body.displacement = ExtendedIncrement<dim>(phi, std::move(moved_by));
         }
       else

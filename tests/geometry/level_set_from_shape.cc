@@ -169,6 +169,24 @@ TEST(LevelSetFromShape, ABodyMayFillTheGrid)
                                     frame<2>(0.1, 1), 0);
   EXPECT_EQ(lattice.value({0.3, 0.4}, 2), -1);
 }
+TEST(LevelSetFromShape, ThicknessOfThinBodies)
+{
+  const double h = 0.1;
+  for (const double angle : {0., 0.5})
+    {
+      const Tensor<2, 2> R(
+        {{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}});
+      const MovedShape<2> sheet(std::make_unique<Box<2>>(Point<2>(-0.7, 0.02), Point<2>(0.7, 0.17)),
+                                R, Point<2>(), Tensor<1, 2>());
+      EXPECT_NEAR(inscribed_radius(sheet, make_lattice(sheet, frame<2>(h, 1), 0.3)), 0.075, 1e-6);
+    }
+  const ExpressionShape<2> scaled(Expression<2>("1000*max(-y, y - 0.12)", 1, "Expression"), false);
+  EXPECT_NEAR(inscribed_radius(scaled, make_lattice(scaled, frame<2>(h, 1), 0.3)), 0.06, 1e-4);
+  // One spacing, between two lines of nodes.
+  const Box<2> fitted(Point<2>(-0.5, 0.2), Point<2>(0.5, 0.3));
+  EXPECT_NEAR(inscribed_radius(fitted, make_lattice(fitted, frame<2>(h, 1), 0.3)), 0.05, 1e-6);
+}
+
 // A ball of 320 spacings: more nodes than a dense lattice may have.
 TEST(ReleaseLevelSetFromShape, StoresABigBodyInTiles)
 {
