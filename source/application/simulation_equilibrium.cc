@@ -62,6 +62,8 @@ Simulation<dim>::first_guess(const double time)
           smallest = r.l2_norm();
         }
     }
+  if (!equilibrium->free_bodies().empty())
+    equilibrium->settle(guesses[best], state.contact);
   return guesses[best];
 }
 
@@ -185,6 +187,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
         is_transient = factor > Equilibrium<dim>::default_mass_factor;
         equilibrium->set_artificial_mass(factor);
       };
+      hooks.freeze    = [&](const bool freeze) { contact->freeze_friction(freeze); };
       hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
     }
   hooks.observe = [&](const NewtonIteration &iteration) {

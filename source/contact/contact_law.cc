@@ -62,7 +62,7 @@ add_friction(const double limit, const double friction_coefficient,
     }
   const Vector direction = trial / length;
   response.status        = ContactStatus::slip;
-  response.is_symmetric  = false;
+  response.is_symmetric  = friction_coefficient == 0. && closed.derivative == 0.;
   response.tau           = limit * direction;
   response.slip          = (length - limit) / kinematics.eps_t;
   response.tangent
@@ -93,6 +93,18 @@ contact_response(const ContactLaw law, const double friction_coefficient,
       add_friction(unlimited, 0., kinematics, {}, response);
       return response;
     }
+  if (kinematics.frozen_limit >= 0. && law != ContactLaw::frictionless)
+    {
+      if (gap >= 0. && kinematics.frozen_limit == 0.)
+        return response;
+      response.pressure = kinematics.eps_n * std::max(0., -gap);
+      response.status   = ContactStatus::stick;
+      if (gap < 0.)
+        response.tangent = kinematics.eps_n * outer_product(n, n);
+      add_friction(kinematics.frozen_limit, 0., kinematics, {kinematics.frozen_closed_part, 0.},
+                   response);
+      return response;
+    }
   if (gap > kinematics.closing_gap)
     return response;
 
@@ -108,8 +120,12 @@ contact_response(const ContactLaw law, const double friction_coefficient,
         + kinematics.eps_t
             * (dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - outer_product(n, n));
   else
-    add_friction(law == ContactLaw::stick ? unlimited : friction_coefficient * response.pressure,
-                 friction_coefficient, kinematics, closed_fraction(old_gap, gap), response);
+    {
+      const ClosedFraction closed = closed_fraction(old_gap, gap);
+      response.closed_part        = closed.value;
+      add_friction(law == ContactLaw::stick ? unlimited : friction_coefficient * response.pressure,
+                   friction_coefficient, kinematics, closed, response);
+    }
   return response;
 }
 

@@ -3,8 +3,6 @@
 #include <scree/contact/contact_points.h>
 #include <scree/level_set/closest_point.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -272,7 +270,9 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
           contact_responses[p] = contact_response<dim>(
             without_friction ? ContactLaw::frictionless : law.law, law.friction_coefficient,
             {gap, point.normal, jump, history.jump[p], history.tau[p], history.pressure[p],
-             eps_n(p), eps_t(p), touching_holds ? 1e-8 * point.cell_size : 0.});
+             eps_n(p), eps_t(p), touching_holds ? 1e-8 * point.cell_size : 0.,
+             frozen_limits.empty() ? -1. : frozen_limits[p],
+             frozen_limits.empty() ? 1. : frozen_closed_parts[p]});
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
               contact_feet[p][side.number()].X
@@ -280,18 +280,6 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               side.sign * point.weight * contact_responses[p].traction(point.normal));
         }
     }
-}
-
-template <int dim>
-std::vector<double>
-ContactPoints<dim>::overlaps(const MPI_Comm communicator) const
-{
-  std::vector<double> result(contact_pairs.size(), 0.);
-  for (const ContactPoint<dim> &point : contact_points)
-    if (contact_pairs[point.pair].law.law != ContactLaw::tied)
-      result[point.pair] = std::max(result[point.pair], -point.initial_gap);
-  dealii::Utilities::MPI::max(result, communicator, result);
-  return result;
 }
 
 template <int dim>

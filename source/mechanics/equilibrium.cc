@@ -196,13 +196,31 @@ Equilibrium<dim>::artificial_work(const Vector &du) const
 
 template <int dim>
 typename FreeBodies<dim>::Coordinates
-Equilibrium<dim>::unbalanced_loads() const
+Equilibrium<dim>::loads_on_free_bodies() const
 {
   Vector forces(internal_forces);
   reactions(forces);
   forces += contact_forces;
   forces *= -1.;
-  const auto loads_on_motions = free.resultants(forces);
+  return free.resultants(forces);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::settle(Vector &u, const ContactHistory<dim> &history)
+{
+  Vector r(u);
+  residual(u, history, r);
+  const auto motion = free.settling(loads_on_free_bodies());
+  if (!motion.empty())
+    free.add(motion, u);
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+Equilibrium<dim>::unbalanced_loads() const
+{
+  const auto loads_on_motions = loads_on_free_bodies();
   auto       result           = free.unbalanced(loads_on_motions);
   double     norm             = 0.;
   for (const double load : loads_on_motions)

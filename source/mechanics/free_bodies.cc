@@ -1,6 +1,5 @@
 #include <scree/base/log.h>
 #include <scree/mechanics/free_bodies.h>
-#include <scree/solver/cone_projection.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -53,55 +52,6 @@ sum_over_processes(std::vector<DenseMatrix> &matrices, const MPI_Comm communicat
         matrix(i, j) = *value++;
 }
 
-/** Unit vectors that span the plane normal to n. */
-template <int dim>
-std::array<dealii::Tensor<1, dim>, dim - 1>
-tangents_of(const dealii::Tensor<1, dim> &n)
-{
-  std::array<dealii::Tensor<1, dim>, dim - 1> result;
-  if constexpr (dim == 2)
-    result[0] = dealii::cross_product_2d(n);
-  else
-    {
-      dealii::Tensor<1, dim> axis;
-      axis[std::abs(n[0]) < 0.6 ? 0 : 1] = 1.;
-      result[0]                          = axis - (axis * n) * n;
-      result[0] /= result[0].norm();
-      result[1] = dealii::cross_product_3d(n, result[0]);
-    }
-  return result;
-}
-
-/** Edges of the cone of tractions on b; in 3D a pyramid around Coulomb's cone. */
-template <int dim>
-std::vector<dealii::Tensor<1, dim>>
-edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
-{
-  constexpr unsigned int              n_edges = dim == 2 ? 2 : 8;
-  const auto                          tangent = tangents_of<dim>(n);
-  std::vector<dealii::Tensor<1, dim>> result;
-  if (law.law == ContactLaw::none)
-    return result;
-  if (law.law == ContactLaw::frictionless || law.friction_coefficient == 0.)
-    return {n};
-  for (unsigned int k = 0; k < n_edges; ++k)
-    {
-      const double           angle = 2. * dealii::numbers::PI * k / n_edges;
-      dealii::Tensor<1, dim> t     = std::cos(angle) * tangent[0];
-      if constexpr (dim == 3)
-        t += std::sin(angle) * tangent[1];
-      if (law.law == ContactLaw::coulomb)
-        result.push_back(n
-                         + law.friction_coefficient
-                             / (dim == 2 ? 1. : std::cos(dealii::numbers::PI / n_edges)) * t);
-      else
-        result.push_back(t);
-    }
-  result.push_back(n);
-  if (law.law == ContactLaw::tied)
-    result.push_back(-n);
-  return result;
-}
 } // namespace
 
 template <int dim>
@@ -184,13 +134,16 @@ FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
 {
   free_unknowns.resize(free_motions.size());
   positions.resize(free_motions.size());
-  components.resize(free_motions.size());
+  free_components.resize(free_motions.size());
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     {
       const unsigned int b = free_motions[i].body;
       for (unsigned int m = 0; bodies[b].is_rigid() && m < Motions::n_motions; ++m)
         if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          free_unknowns[i].push_back(fields.rigid_unknown(b) + m);
+          {
+            free_unknowns[i].push_back(fields.rigid_unknown(b) + m);
+            free_components[i].push_back(m);
+          }
     }
   std::vector<bool> is_known(fields.owned().n_elements(), false);
   for (unsigned int a = 0; a < fields.cells().size(); ++a)
@@ -210,7 +163,7 @@ FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
               continue;
             is_known[fields.owned().index_within_set(unknown)] = true;
             free_unknowns[i].push_back(unknown);
-            components[i].push_back(d);
+            free_components[i].push_back(d);
             positions[i].push_back(geometry.lower
                                    + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(k)));
           }
@@ -318,57 +271,43 @@ FreeBodies<dim>::not_held() const
 }
 
 template <int dim>
+double
+FreeBodies<dim>::along(const unsigned int i, const unsigned int j, const unsigned int k) const
+{
+  if (bodies[free_motions[i].body].is_rigid())
+    return bases[i](free_components[i][j], k);
+  double result = 0.;
+  for (unsigned int m = 0; m < Motions::n_motions; ++m)
+    result += bases[i](m, k) * rigid_motions[i].motion(m, positions[i][j])[free_components[i][j]];
+  return result;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::add(const Coordinates &motion, dealii::TrilinosWrappers::MPI::Vector &u) const
+{
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+      {
+        double sum = 0.;
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          sum += along(i, j, k) * motion[first[i] + k];
+        u(free_unknowns[i][j]) += sum;
+      }
+  u.compress(dealii::VectorOperation::add);
+}
+
+template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const
 {
   Coordinates result(n_coordinates, 0.);
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
-      {
-        const DofIndex unknown = free_unknowns[i][j];
-        for (unsigned int m = 0; m < Motions::n_motions; ++m)
-          {
-            double along = 0.;
-            if (bodies[free_motions[i].body].is_rigid())
-              along = j == m ? 1. : 0.;
-            else
-              along = rigid_motions[i].motion(m, positions[i][j])[components[i][j]];
-            for (unsigned int k = 0; k < bases[i].n(); ++k)
-              result[first[i] + k] += along * bases[i](m, k) * forces(unknown);
-          }
-      }
+      for (unsigned int k = 0; k < bases[i].n(); ++k)
+        result[first[i] + k] += along(i, j, k) * forces(free_unknowns[i][j]);
   dealii::Utilities::MPI::sum(result, communicator, result);
   return result;
-}
-
-template <int dim>
-typename FreeBodies<dim>::Coordinates
-FreeBodies<dim>::unbalanced(const Coordinates &resultants) const
-{
-  // Pairs that touch can press where they touch nearly, others wherever they may meet.
-  constexpr double    nearly = 0.25; // cells
-  std::vector<double> nearest(contact.pairs().size(), std::numeric_limits<double>::max());
-  const auto          distance = [&](const unsigned int i) {
-    const double h = contact.points()[i].cell_size;
-    return std::min(contact.gap(i), contact.points()[i].initial_gap) / h;
-  };
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    nearest[contact.points()[i].pair] = std::min(nearest[contact.points()[i].pair], distance(i));
-  dealii::Utilities::MPI::min(nearest, communicator, nearest);
-  Coordinates columns;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    if (const auto &point = contact.points()[i];
-        nearest[point.pair] > nearly || distance(i) <= nearly)
-      for (const auto &edge : edges_of_cone<dim>(contact.pairs()[point.pair].law, point.normal))
-        append_column(point, edge, columns);
-  const auto gathered = dealii::Utilities::MPI::gather(communicator, columns);
-  columns.clear();
-  for (const Coordinates &of_process : gathered)
-    columns.insert(columns.end(), of_process.begin(), of_process.end());
-  Coordinates result;
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    result = unbalanced_part(resultants, columns);
-  return dealii::Utilities::MPI::broadcast(communicator, result);
 }
 
 template <int dim>

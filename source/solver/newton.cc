@@ -21,7 +21,8 @@ constexpr double       round_off_increment  = 1e-10;
 constexpr double       forcing_factor       = 0.9;
 constexpr double       forcing_safeguard    = 0.1;
 constexpr double       final_linear_factor  = 0.1;
-constexpr double       first_part           = 0.5;
+constexpr unsigned int transient_iterations = 12;
+constexpr double       transient_reduction  = 1e-3;
 constexpr unsigned int stall_iterations     = 8;
 constexpr double       stall_reduction      = 0.7;
 constexpr double       first_mass           = 0.1;
@@ -114,9 +115,9 @@ struct Newton::Step
 /** What the method of the iteration is. */
 struct Newton::Progress
 {
-  bool         is_transient = false;
-  double       mass         = 0.; //!< s
-  unsigned int iterations   = 0;  //!< before this method
+  bool         is_transient = false; //!< the first part of a round
+  double       mass         = 0.;    //!< s
+  unsigned int iterations   = 0;     //!< before this method
 };
 
 Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
@@ -248,22 +249,33 @@ Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progre
 NewtonResult
 Newton::solve(Vector &u) const
 {
-  const Vector start(u);
+  Vector       last(u);
   Progress     progress;
   NewtonResult result = iterate(u, progress);
-  if (result.converged() || !hooks.set_mass)
+  if (!hooks.set_mass)
     return result;
-  u                     = start;
-  progress.is_transient = true;
-  progress.mass         = first_mass;
-  progress.iterations   = result.iterations;
-  NewtonResult second   = iterate(u, progress);
-  hooks.set_mass(smallest_mass);
-  second.residuals.insert(second.residuals.begin(), result.residuals.begin(),
-                          result.residuals.end());
-  if (!second.converged())
-    second.message = result.message + "; with an artificial mass: " + second.message;
-  return second;
+  const auto go_on = [&](Vector &from) {
+    progress.iterations        = result.iterations;
+    NewtonResult        next   = iterate(from, progress);
+    std::vector<double> before = std::move(result.residuals);
+    before.insert(before.end(), next.residuals.begin(), next.residuals.end());
+    next.residuals = std::move(before);
+    result         = std::move(next);
+  };
+  progress.mass = first_mass;
+  while (!result.converged() && result.iterations < parameters.max_iterations)
+    {
+      progress.is_transient = true;
+      hooks.residual(last, u);
+      hooks.freeze(true);
+      go_on(last);
+      hooks.freeze(false);
+      hooks.set_mass(smallest_mass);
+      progress.is_transient = false;
+      u                     = last;
+      go_on(u);
+    }
+  return result;
 }
 
 NewtonResult
@@ -306,12 +318,15 @@ Newton::iterate(Vector &u, Progress &progress) const
       if (is_round_off_plateau(result.residuals, iteration, u.l2_norm()))
         return ended_as(NewtonStatus::converged_at_round_off,
                         told("ended at round-off in %u iterations, |r| = %.3e (tolerance %.3e)"));
+      if (progress.is_transient
+          && (result.residuals.size() > transient_iterations
+              || iteration.residual <= transient_reduction * result.residuals.front()))
+        return ended_as(NewtonStatus::stalled,
+                        told("frozen friction: iteration %u, |r| = %.3e (tolerance %.3e)"));
       if (hooks.set_mass && !progress.is_transient && is_stalled(result.residuals))
         return ended_as(NewtonStatus::stalled,
                         told("stalled in iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (iteration.number >= (hooks.set_mass && !progress.is_transient
-                                 ? first_part * parameters.max_iterations
-                                 : parameters.max_iterations))
+      if (iteration.number >= parameters.max_iterations)
         return ended_as(NewtonStatus::max_iterations,
                         told("not converged in %u iterations, |r| = %.3e (tolerance %.3e)"));
 

@@ -45,6 +45,9 @@ struct ContactKinematics
   double                 eps_n;        //!< normal penalty [force/area/L]
   double                 eps_t;        //!< tangential penalty [force/area/L]
   double                 closing_gap;  //!< gaps up to this count as closed in the tangent [L]
+  /** Bound of the friction in place of mu p if not negative, and f, whatever the gap is. */
+  double frozen_limit       = -1.;
+  double frozen_closed_part = 1.;
 };
 
 /** Tractions of body a on body b and their derivative. */
@@ -57,6 +60,7 @@ struct ContactResponse
   ContactStatus          status       = ContactStatus::open;
   double                 slip         = 0.;   //!< sliding in this step [L]
   bool                   is_symmetric = true; //!< the tangent
+  double                 closed_part  = 1.;   //!< f
 
   /** p n + tau, the traction on b. */
   dealii::Tensor<1, dim> traction(const dealii::Tensor<1, dim> &normal) const
@@ -79,7 +83,7 @@ struct ContactResponse
  * tau vanishes with p at the edge of a growing contact (its derivative enters the tangent). Tied: p
  * = p_n - eps_n n.([[u]] - [[u]]_n) of either sign and tau = tau_t. Gaps in [0, closing_gap] carry
  * no traction but the tangent of stick: a body that touches without load is held in the first
- * iteration.
+ * iteration. With a frozen bound and f the tractions have a potential, convex in the jump.
  */
 template <int dim>
 ContactResponse<dim> contact_response(const ContactLaw law, const double friction_coefficient,

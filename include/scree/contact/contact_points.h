@@ -92,6 +92,12 @@ public:
     pair_allowances = allowances;
   }
 
+  /**
+   * Keeps the bounds mu p of the last evaluation for the next ones, or lets them follow the
+   * pressure again.
+   */
+  void freeze_friction(const bool freeze);
+
   /** Largest overlap of each pair without displacement, 0: none; tied ones have none. Collective.
    */
   std::vector<double> overlaps(const MPI_Comm communicator) const;
@@ -221,6 +227,7 @@ private:
   std::vector<double>                 pair_modulus;    //!< E = 2/(1/E_a + 1/E_b)
   std::vector<double>                 pair_allowances; //!< while overlap is resolved
   bool                                touching_holds = true;
+  std::vector<double>                 frozen_limits, frozen_closed_parts; //!< empty: not frozen
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;

@@ -127,13 +127,15 @@ public:
     return free;
   }
 
+  /** Lets free bodies fall until they touch, see FreeBodies::settling() (collective). */
+  void settle(Vector &u, const ContactHistory<dim> &history);
+
   /**
    * What of the loads on the free bodies no contact can balance, see FreeBodies::unbalanced(), as a
    * part of the loads: a motion of length 0 to 1. Of the last residual() (collective).
    */
   typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
-  /** Whether the motion of a rigid body is unknown. */
   bool has_free_rigid_bodies() const;
 
   /** Whether tangents change by contact alone. */
@@ -174,13 +176,14 @@ public:
   }
 
 private:
-  void         set_up_matrices();
-  void         set_up_artificial_mass();
-  void         set_zero_on_prescribed(Vector &r) const;
-  void         add_artificial_mass(Matrix &matrix) const;
-  void         eliminate_prescribed(Matrix &matrix) const;
-  void         reactions(Vector &result) const;
-  unsigned int n_rigid_unknowns() const;
+  void                                  set_up_matrices();
+  typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
+  void                                  set_up_artificial_mass();
+  void                                  set_zero_on_prescribed(Vector &r) const;
+  void                                  add_artificial_mass(Matrix &matrix) const;
+  void                                  eliminate_prescribed(Matrix &matrix) const;
+  void                                  reactions(Vector &result) const;
+  unsigned int                          n_rigid_unknowns() const;
   /** External work of the step to `u`, but that of dead loads. */
   double work_of_step(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);

@@ -80,6 +80,20 @@ public:
    */
   Coordinates unbalanced(const Coordinates &resultants) const;
 
+  /**
+   * How the bodies that are not held fall as rigid ones until contact stops them: with their
+   * resultants f_b, weights |f_b| and the gaps g_i of the last evaluation, the motion q that
+   *
+   *     minimises sum_b |f_b| |q_b - D f_b/|f_b||^2   under   max(g_i, 0) + (n.[[q]])_i >= 0,
+   *
+   * D three times the sum of their gaps: everything falls far enough to meet something, what
+   * nothing stops does not go far. Empty: no such body is away from all others (collective).
+   */
+  Coordinates settling(const Coordinates &resultants) const;
+
+  /** Adds a motion to the displacement (without ghosts). */
+  void add(const Coordinates &motion, dealii::TrilinosWrappers::MPI::Vector &u) const;
+
   /** The motions of the bodies that move at least a tenth as much as the one that moves most. */
   std::vector<LooseMotion<dim>> in_words(const Coordinates &motion) const;
 
@@ -101,6 +115,10 @@ private:
   std::vector<dealii::FullMatrix<double>>
        resistance_of_supports(const std::vector<Motions> &motions) const;
   void find_unknowns(const Fields<dim> &fields);
+  /** What coordinate k of a free body does to its unknown j. */
+  double along(const unsigned int free_body, const unsigned int j, const unsigned int k) const;
+  /** Smallest gap around each free body, 0 if it touches. */
+  std::vector<double> gaps() const;
   /** Appends what the coordinates do to the relative motion at a contact point along `direction`.
    */
   void append_column(const ContactPoint<dim> &point, const dealii::Tensor<1, dim> &direction,
@@ -117,9 +135,9 @@ private:
   std::vector<dealii::FullMatrix<double>>      bases; //!< columns: free motions in the rigid ones
   std::vector<unsigned int>                    first; //!< coordinate
   std::vector<std::vector<DofIndex>>           free_unknowns;
-  std::vector<std::vector<dealii::Point<dim>>> positions;  //!< where these unknowns are
-  std::vector<std::vector<unsigned int>>       components; //!< which of the displacement
-  std::vector<unsigned int>                    number_of;  //!< of each body among the free ones
+  std::vector<std::vector<dealii::Point<dim>>> positions;       //!< where these unknowns are
+  std::vector<std::vector<unsigned int>>       free_components; //!< of the displacement or pose
+  std::vector<unsigned int>                    number_of; //!< of each body among the free ones
   unsigned int                                 n_coordinates = 0;
 };
 } // namespace scree

@@ -5,6 +5,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace scree
@@ -98,6 +100,25 @@ private:
   dealii::Point<dim> centre;
   double             size;
 };
+
+/** Unit vectors that span the plane normal to n. */
+template <int dim>
+inline std::array<dealii::Tensor<1, dim>, dim - 1>
+tangents_of(const dealii::Tensor<1, dim> &n)
+{
+  std::array<dealii::Tensor<1, dim>, dim - 1> result;
+  if constexpr (dim == 2)
+    result[0] = dealii::cross_product_2d(n);
+  else
+    {
+      dealii::Tensor<1, dim> axis;
+      axis[std::abs(n[0]) < 0.6 ? 0 : 1] = 1.;
+      result[0]                          = axis - (axis * n) * n;
+      result[0] /= result[0].norm();
+      result[1] = dealii::cross_product_3d(n, result[0]);
+    }
+  return result;
+}
 
 /**
  * The rigid motions as vectors of unknowns, the same for all deformable bodies: a set per body

@@ -28,7 +28,7 @@ struct NewtonParameters
   double absolute_tolerance = 0;
 
   /** Of both methods together. */
-  unsigned int max_iterations = 60;
+  unsigned int max_iterations = 100;
 
   LineSearch line_search = LineSearch::work;
 
@@ -118,18 +118,21 @@ struct NewtonResult
  * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the
  * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
  *
- * *Pseudo-transient continuation:* with an artificial mass M, Newton's method ends as stalled when
- * the smallest residual of the last 8 iterations is not below 0.7 of the smallest before them. From
- * the first guess a second method goes on, as it does after any other failure: proximal steps
- * (Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998, 508-523),
+ * *Pseudo-transient continuation:* with an artificial mass M the iteration ends as stalled when the
+ * smallest residual of its last 8 iterations is not below 0.7 of the smallest before them. After
+ * that, or any other failure, rounds of two parts go on from the first guess. The first part has
+ * the bounds of friction frozen, so that what is linear otherwise has a convex energy, and takes
+ * proximal steps (Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998, 508-523), 12 at most, until |r|
+ * falls to 1e-3:
  *
  *     (K(u) + s M) du = r(u),    G(alpha) = r(u + alpha du) . du - alpha s du . M du,
  *
  * where alpha = 1 if |G(1)| <= G(0)/2 or G(1) > 0, else |G(alpha)| <= G(0)/10: near the minimum
- * along du of the energy plus s |u' - u|_M^2/2, where there is an energy. s is 0.1 at first, a
- * tenth after a step of alpha > 1/2 and four times as large after one of alpha < 0.2. M holds what
- * moves freely and never enters r: what converged is in balance without it, and as s vanishes
- * convergence becomes quadratic.
+ * along du of the energy plus s |u' - u|_M^2/2. s is 0.1 at first, a tenth after a step of alpha >
+ * 1/2 and four times as large after one of alpha < 0.2. The second part is the iteration above,
+ * from where the first one ended and with friction set free; if it fails too, the next round goes
+ * on from where the first part ended. M holds what moves freely and never enters r: what converged
+ * is in balance without it.
  *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
@@ -161,6 +164,9 @@ public:
 
     /** Sets the factor of the artificial mass M in K; empty: there is none. */
     std::function<void(double factor)> set_mass;
+
+    /** Freezes the bounds of friction at those of the last residual(), or lets them go. */
+    std::function<void(bool freeze)> freeze;
 
     /** du . M du with the present factor. */
     std::function<double(const Vector &du)> mass_work;
