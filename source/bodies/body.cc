@@ -156,6 +156,7 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
                                  Expression<dim>(body.body_force, dim, body.path + "/Body force"),
                                  conditions,
                                  {}});
+      bodies.back().shape = shape;
     }
   return bodies;
 }

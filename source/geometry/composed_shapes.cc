@@ -76,6 +76,27 @@ MovedShape<dim>::bounding_box() const
 }
 
 template <int dim>
+bool
+MovedShape<dim>::is_smooth() const
+{
+  return shape->is_smooth();
+}
+
+template <int dim>
+void
+MovedShape<dim>::append_pieces(const BoundingBox<dim>        &box,
+                               std::vector<SmoothPiece<dim>> &pieces) const
+{
+  std::vector<Point<dim>> corners;
+  for (unsigned int v = 0; v < (1u << dim); ++v)
+    corners.push_back(centre + transpose(rotation) * (box.vertex(v) - translation - centre));
+  std::vector<SmoothPiece<dim>> unmoved;
+  shape->append_pieces(BoundingBox<dim>(corners), unmoved);
+  for (const auto &piece : unmoved)
+    pieces.push_back(piece.moved(rotation, centre, translation));
+}
+
+template <int dim>
 CombinedShape<dim>::CombinedShape(const ShapeType type, std::vector<ShapePointer<dim>> parts)
     : type(type)
     , parts(std::move(parts))
@@ -128,6 +149,28 @@ CombinedShape<dim>::bounding_box() const
         }
     }
   return result;
+}
+
+template <int dim>
+bool
+CombinedShape<dim>::is_smooth() const
+{
+  return parts.size() == 1 && parts[0]->is_smooth();
+}
+
+template <int dim>
+void
+CombinedShape<dim>::append_pieces(const BoundingBox<dim>        &box,
+                                  std::vector<SmoothPiece<dim>> &pieces) const
+{
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+      const std::size_t first = pieces.size();
+      parts[i]->append_pieces(box, pieces);
+      if (type == ShapeType::difference && i > 0)
+        for (std::size_t j = first; j < pieces.size(); ++j)
+          pieces[j] = pieces[j].reversed();
+    }
 }
 
 #define INSTANTIATE(dim)               \

@@ -58,6 +58,8 @@ struct Body
   std::shared_ptr<const Lattice<dim>> initial_level_set = nullptr;
   /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
   typename RigidPose<dim>::Unknowns pose = {};
+  /** At the start of a run; null if the body has none. */
+  std::shared_ptr<const Shape<dim>> shape = nullptr;
 
   bool is_rigid() const
   {

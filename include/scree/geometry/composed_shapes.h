@@ -40,6 +40,11 @@ public:
 
   dealii::BoundingBox<dim> bounding_box() const override;
 
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
+
 private:
   ShapePointer<dim>      shape;
   dealii::Tensor<2, dim> rotation;
@@ -63,6 +68,11 @@ public:
   bool is_distance() const override;
 
   dealii::BoundingBox<dim> bounding_box() const override;
+
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
 
 private:
   ShapeType                      type;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/base/enum_names.h>
+#include <scree/geometry/smooth_piece.h>
 #include <scree/parameters/section.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -30,8 +31,26 @@ public:
   /** A box that contains the shape, `unbounded` in directions without an end. */
   virtual dealii::BoundingBox<dim> bounding_box() const = 0;
 
+  /** Whether the boundary is a single piece without kinks: that of signed_distance(). */
+  virtual bool is_smooth() const;
+
+  /**
+   * Appends the smooth pieces of the boundary that may pass through the closed `box`: where none
+   * does, the box is inside or outside as a whole. Parts of them may not belong to the boundary.
+   */
+  virtual void append_pieces(const dealii::BoundingBox<dim> &box,
+                             std::vector<SmoothPiece<dim>>  &pieces) const;
+
   static constexpr double unbounded = 1e300;
 };
+
+/**
+ * The pieces that bound `shape` within `radius` of `x`: one at a point of a face, several at edges
+ * and corners, none away from the boundary.
+ */
+template <int dim>
+std::vector<SmoothPiece<dim>> active_pieces(const Shape<dim> &shape, const dealii::Point<dim> &x,
+                                            const double radius);
 
 template <int dim>
 using ShapePointer = std::unique_ptr<const Shape<dim>>;

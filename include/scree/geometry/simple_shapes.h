@@ -33,6 +33,11 @@ public:
 
   dealii::BoundingBox<dim> bounding_box() const override;
 
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
+
 private:
   dealii::Point<dim> lower, upper;
 };
@@ -47,6 +52,9 @@ public:
   double signed_distance(const dealii::Point<dim> &x) const override;
 
   dealii::BoundingBox<dim> bounding_box() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
 
 private:
   dealii::Point<dim>     point;
@@ -84,6 +92,11 @@ public:
 
   dealii::BoundingBox<dim> bounding_box() const override;
 
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
+
 private:
   dealii::Point<dim> centre;
   double             inner_radius, outer_radius;
@@ -115,6 +128,11 @@ public:
 
   dealii::BoundingBox<2> bounding_box() const override;
 
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<2> &box,
+                     std::vector<SmoothPiece<2>>  &pieces) const override;
+
   /** Whether two sides of the polygon with these vertices cross or touch (beyond common vertices).
    */
   static bool crosses_itself(const std::vector<dealii::Point<2>> &vertices);
@@ -137,6 +155,11 @@ public:
   bool is_distance() const override;
 
   dealii::BoundingBox<dim> bounding_box() const override;
+
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
 
 private:
   dealii::Point<dim> centre, semi_axes;
