@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/contact/contact_points.h>
+#include <scree/contact/exact_distance.h>
 #include <scree/level_set/closest_point.h>
 
 #include <algorithm>
@@ -25,6 +26,25 @@ modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
     = [](const Body<dim> &body) { return body.is_rigid() ? 0. : 1. / body.material->young(); };
   return 2. / (compliance(a) + compliance(b));
 }
+
+/** A vector at the nodes of stencils, which may lie on any process; empty for null. */
+dealii::TrilinosWrappers::MPI::Vector
+values_at(const std::vector<NodeStencil>              &stencils,
+          const dealii::TrilinosWrappers::MPI::Vector *vector, const unsigned int dim)
+{
+  dealii::TrilinosWrappers::MPI::Vector result;
+  if (!vector)
+    return result;
+  const dealii::IndexSet owned = vector->locally_owned_elements();
+  dealii::IndexSet       relevant(owned);
+  for (const NodeStencil &stencil : stencils)
+    for (const auto &[node, weight] : stencil)
+      relevant.add_range(node, node + dim);
+  relevant.compress();
+  result.reinit(owned, relevant, vector->get_mpi_communicator());
+  result = *vector;
+  return result;
+}
 } // namespace
 
 template <int dim>
@@ -32,17 +52,17 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
                                   const std::vector<Body<dim>>   &bodies,
                                   const std::vector<ContactPair> &pairs, const double shift,
-                                  const Prediction &prediction)
+                                  const Prediction &prediction, const Vector *start_displacement)
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
-  const bool moves = std::any_of(bodies.begin(), bodies.end(),
-                                 [](const Body<dim> &body) { return body.law != nullptr; });
-  contact_points
-    = contact_surface(fields, level_set_nodes, bodies, pairs, shift, moves || prediction);
-  find_stencils(fields, bodies, prediction);
+  const ExactDistances<dim> distances(fields, bodies, start_displacement);
+  contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift, distances);
+  find_stencils(fields, bodies, prediction, distances,
+                InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
+                start_displacement);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
@@ -78,11 +98,19 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
 template <int dim>
 void
 ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                  const Prediction &prediction)
+                                  const Prediction          &prediction,
+                                  const ExactDistances<dim> &distances,
+                                  const InitialGaps<dim>    &initial_gaps,
+                                  const Vector              *start_displacement)
 {
-  const auto                            box = fields.grid.box();
-  std::vector<unsigned int>             of_body;
-  std::vector<dealii::Point<dim>>       projected;
+  const auto                      box = fields.grid.box();
+  std::vector<unsigned int>       of_body;
+  std::vector<dealii::Point<dim>> projected;
+  const auto                      foot_on
+    = [&](const unsigned int body, const dealii::Point<dim> &start, const bool is_exact) {
+        return is_exact ? distances.foot(body, start)
+                        : project(bodies[body].level_set, start, fields.basis.degree).point;
+      };
   std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
@@ -101,8 +129,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
            {std::make_pair(pair.a, x + 0.5 * slide), std::make_pair(pair.b, x - 0.5 * slide)})
         if (!bodies[body].is_rigid())
           {
-            dealii::Point<dim> foot
-              = project(bodies[body].level_set, start, fields.basis.degree).point;
+            dealii::Point<dim> foot = foot_on(body, start, point.is_exact);
             for (unsigned int d = 0; d < dim; ++d)
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
             of_body.push_back(body);
@@ -112,22 +139,22 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
         {
           const RigidPartner &partner = rigid_partners[side.partner];
           RigidFoot          &foot    = feet[i][side.number()];
-          foot.X     = partner.start_pose.initial_position(project(bodies[partner.body].level_set,
-                                                                   x - 0.5 * side.sign * slide,
-                                                                   fields.basis.degree)
-                                                             .point);
+          foot.X                      = partner.start_pose.initial_position(
+                                 foot_on(partner.body, x - 0.5 * side.sign * slide, point.is_exact));
           foot.start = partner.start_pose.displacement(foot.X);
         }
     }
   const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
+  const Vector                   u_n      = values_at(stencils, start_displacement, dim);
 
   std::vector<ContactPoint<dim>> kept;
   auto                           stencil = stencils.begin();
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      const ContactPair         &pair = contact_pairs[contact_points[i].pair];
-      std::map<DofIndex, double> jump, sides;
-      bool                       is_found = true;
+      const ContactPair                    &pair = contact_pairs[contact_points[i].pair];
+      std::map<DofIndex, double>            jump, sides;
+      bool                                  is_found = true;
+      std::array<dealii::Tensor<1, dim>, 2> moved;
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
         if (!bodies[body].is_rigid())
           {
@@ -136,11 +163,19 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
               {
                 jump[node] += sign * weight;
                 sides[node] = sign;
+                for (unsigned int d = 0; d < dim && start_displacement; ++d)
+                  moved[sign > 0.][d] += weight * u_n(node + d);
               }
             ++stencil;
           }
       if (!is_found)
         continue; // the surface ends here: one of the bodies is clipped by the box
+      if (initial_gaps.are_needed(contact_points[i].pair))
+        {
+          for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
+            moved[side.number()] = feet[i][side.number()].start;
+          initial_gaps.apply(moved, contact_points[i]);
+        }
       std::vector<DofIndex> nodes;
       for (const auto &[node, weight] : jump)
         nodes.push_back(node);
@@ -256,14 +291,15 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               jump += side.sign * motion;
               sum += motion;
             }
-          const ContactPoint<dim> &point = contact_points[p];
-          const auto              &law   = contact_pairs[point.pair].law;
-          contact_jumps[p]               = jump;
-          contact_means[p]               = 0.5 * sum;
-          contact_responses[p]           = contact_response<dim>(
-            law.law, law.friction_coefficient,
+          const ContactPoint<dim> &point    = contact_points[p];
+          const auto              &law      = contact_pairs[point.pair].law;
+          const bool               is_apart = law.law == ContactLaw::tied && !point.is_glued;
+          contact_jumps[p]                  = jump;
+          contact_means[p]                  = 0.5 * sum;
+          contact_responses[p]              = contact_response<dim>(
+            is_apart ? ContactLaw::none : law.law, law.friction_coefficient,
             {point.initial_gap, point.normal, jump, history.jump[p], history.tau[p],
-                       history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+             history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
               contact_feet[p][side.number()].X
