@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/bodies/thin_body.h>
 #include <scree/contact/contact_points.h>
+#include <scree/contact/exact_distance.h>
 #include <scree/level_set/closest_point.h>
 
 #include <algorithm>
@@ -26,6 +27,25 @@ modulus_of(const ContactPair &pair, const Body<dim> &a, const Body<dim> &b)
     = [](const Body<dim> &body) { return body.is_rigid() ? 0. : 1. / body.material->young(); };
   return 2. / (compliance(a) + compliance(b));
 }
+
+/** A vector at the nodes of stencils, which may lie on any process; empty for null. */
+dealii::TrilinosWrappers::MPI::Vector
+values_at(const std::vector<NodeStencil>              &stencils,
+          const dealii::TrilinosWrappers::MPI::Vector *vector, const unsigned int dim)
+{
+  dealii::TrilinosWrappers::MPI::Vector result;
+  if (!vector)
+    return result;
+  const dealii::IndexSet owned = vector->locally_owned_elements();
+  dealii::IndexSet       relevant(owned);
+  for (const NodeStencil &stencil : stencils)
+    for (const auto &[node, weight] : stencil)
+      relevant.add_range(node, node + dim);
+  relevant.compress();
+  result.reinit(owned, relevant, vector->get_mpi_communicator());
+  result = *vector;
+  return result;
+}
 } // namespace
 
 template <int dim>
@@ -33,17 +53,17 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
                                   const std::vector<Body<dim>>   &bodies,
                                   const std::vector<ContactPair> &pairs, const double shift,
-                                  const Prediction &prediction)
+                                  const Prediction &prediction, const Vector *start_displacement)
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
-  const bool moves = std::any_of(bodies.begin(), bodies.end(),
-                                 [](const Body<dim> &body) { return body.law != nullptr; });
-  contact_points
-    = contact_surface(fields, level_set_nodes, bodies, pairs, shift, moves || prediction);
-  find_stencils(fields, bodies, prediction);
+  const ExactDistances<dim> distances(fields, bodies, start_displacement);
+  contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift, distances);
+  find_stencils(fields, bodies, prediction, distances,
+                InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
+                start_displacement);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
@@ -79,11 +99,19 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
 template <int dim>
 void
 ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                  const Prediction &prediction)
+                                  const Prediction          &prediction,
+                                  const ExactDistances<dim> &distances,
+                                  const InitialGaps<dim>    &initial_gaps,
+                                  const Vector              *start_displacement)
 {
-  const auto                            box = fields.grid.box();
-  std::vector<unsigned int>             of_body;
-  std::vector<dealii::Point<dim>>       projected;
+  const auto                      box = fields.grid.box();
+  std::vector<unsigned int>       of_body;
+  std::vector<dealii::Point<dim>> projected;
+  const auto                      foot_on
+    = [&](const unsigned int body, const dealii::Point<dim> &start, const bool is_exact) {
+        return is_exact ? distances.foot(body, start)
+                        : project(bodies[body].level_set, start, fields.basis.degree).point;
+      };
   std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
@@ -102,11 +130,12 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
            {std::make_pair(pair.a, x + 0.5 * slide), std::make_pair(pair.b, x - 0.5 * slide)})
         if (!bodies[body].is_rigid())
           {
-            dealii::Point<dim> foot
-              = foot_on_thin_body<dim>(bodies[body], start,
-                                       body == pair.a ? point.normal : -point.normal,
-                                       2. * point.cell_size)
-                  .value_or(project(bodies[body].level_set, start, fields.basis.degree).point);
+            dealii::Point<dim> foot = foot_on(body, start, point.is_exact);
+            if (!point.is_exact)
+              foot = foot_on_thin_body<dim>(bodies[body], start,
+                                            body == pair.a ? point.normal : -point.normal,
+                                            2. * point.cell_size)
+                       .value_or(foot);
             for (unsigned int d = 0; d < dim; ++d)
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
             of_body.push_back(body);
@@ -116,22 +145,22 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
         {
           const RigidPartner &partner = rigid_partners[side.partner];
           RigidFoot          &foot    = feet[i][side.number()];
-          foot.X     = partner.start_pose.initial_position(project(bodies[partner.body].level_set,
-                                                                   x - 0.5 * side.sign * slide,
-                                                                   fields.basis.degree)
-                                                             .point);
+          foot.X                      = partner.start_pose.initial_position(
+                                 foot_on(partner.body, x - 0.5 * side.sign * slide, point.is_exact));
           foot.start = partner.start_pose.displacement(foot.X);
         }
     }
   const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
+  const Vector                   u_n      = values_at(stencils, start_displacement, dim);
 
   std::vector<ContactPoint<dim>> kept;
   auto                           stencil = stencils.begin();
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      const ContactPair         &pair = contact_pairs[contact_points[i].pair];
-      std::map<DofIndex, double> jump, sides;
-      bool                       is_found = true;
+      const ContactPair                    &pair = contact_pairs[contact_points[i].pair];
+      std::map<DofIndex, double>            jump, sides;
+      bool                                  is_found = true;
+      std::array<dealii::Tensor<1, dim>, 2> moved;
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
         if (!bodies[body].is_rigid())
           {
@@ -140,11 +169,19 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
               {
                 jump[node] += sign * weight;
                 sides[node] = sign;
+                for (unsigned int d = 0; d < dim && start_displacement; ++d)
+                  moved[sign > 0.][d] += weight * u_n(node + d);
               }
             ++stencil;
           }
       if (!is_found)
         continue; // the surface ends here: one of the bodies is clipped by the box
+      if (initial_gaps.are_needed(contact_points[i].pair))
+        {
+          for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
+            moved[side.number()] = feet[i][side.number()].start;
+          initial_gaps.apply(moved, contact_points[i]);
+        }
       std::vector<DofIndex> nodes;
       for (const auto &[node, weight] : jump)
         nodes.push_back(node);
@@ -260,15 +297,19 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               jump += side.sign * motion;
               sum += motion;
             }
-          const ContactPoint<dim> &point = contact_points[p];
-          const auto              &law   = contact_pairs[point.pair].law;
-          contact_jumps[p]               = jump;
-          contact_means[p]               = 0.5 * sum;
-          const bool   without_friction  = !pair_allowances.empty() && law.law != ContactLaw::tied;
-          const double gap
+          const ContactPoint<dim> &point   = contact_points[p];
+          const auto              &law     = contact_pairs[point.pair].law;
+          const bool               is_tied = law.law == ContactLaw::tied;
+          contact_jumps[p]                 = jump;
+          contact_means[p]                 = 0.5 * sum;
+          const ContactLaw acting          = is_tied && !point.is_glued ? ContactLaw::none
+                                             : !is_tied && !pair_allowances.empty()
+                                               ? ContactLaw::frictionless
+                                               : law.law;
+          const double     gap
             = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
           contact_responses[p] = contact_response<dim>(
-            without_friction ? ContactLaw::frictionless : law.law, law.friction_coefficient,
+            acting, law.friction_coefficient,
             {gap, point.normal, jump, history.jump[p], history.tau[p], history.pressure[p],
              eps_n(p), eps_t(p), touching_holds ? 1e-8 * point.cell_size : 0.,
              frozen_limits.empty() ? -1. : frozen_limits[p],

@@ -161,7 +161,9 @@ private:
   LinearSolveResult solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
                                         LinearSolver::Vector &du);
   void              report_step(const double wall_time);
-  void              report_end(const double wall_time);
+  /** Tells of contacts at very few points, once per pair. */
+  void report_under_resolved();
+  void report_end(const double wall_time);
   /**
    * What of the loads of `time` on free bodies no contact can balance, a part of the loads, and the
    * motion they drive, see FreeBodies::unbalanced(); geometry and contact of the start of the step.
@@ -216,9 +218,10 @@ private:
   bool                                 overlap_is_resolved = false;
   bool                                 is_transient        = false; //!< K has more artificial mass
   std::set<std::pair<unsigned int, unsigned int>>
-                             warned_pairs; //!< told once; (b, b): body b at the box
-  std::vector<bool>          was_closed;   //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status;  //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;      //!< per pair
+    warned_pairs;                         //!< told once; (b, b): body b at the box,
+                                          //!< (b, a) with b > a: under-resolved
+  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;     //!< per pair
 };
 } // namespace scree
