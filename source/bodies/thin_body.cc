@@ -36,10 +36,11 @@ foot_on_thin_body(const Body<dim> &body, const dealii::Point<dim> &x,
     {
       const auto [value, gradient] = expand(piece, x);
       const double cosine          = gradient * direction / (gradient.norm() * direction.norm());
-      is_thin                      = is_thin || cosine < -0.5;
-      if (cosine > 0.5 && std::abs(value) < smallest)
+      is_thin = is_thin || (cosine < -0.5 && std::abs(value) < reach * gradient.norm());
+      const double distance = std::abs(value) / gradient.norm();
+      if (cosine > 0.5 && distance < smallest)
         {
-          smallest = std::abs(value);
+          smallest = distance;
           facing   = {piece};
         }
     }
@@ -50,7 +51,7 @@ foot_on_thin_body(const Body<dim> &body, const dealii::Point<dim> &x,
     {
       const auto [value, gradient] = expand(facing[0], foot);
       foot -= value / gradient.norm_square() * gradient;
-      if (std::abs(value) < 1e-12 * reach)
+      if (std::abs(value) < 1e-12 * reach * gradient.norm())
         break;
     }
   const bool is_on_boundary

@@ -97,8 +97,16 @@ Cutter<dim>::smooth(const SmoothPiece<dim> &piece, const bool must_agree) const
 {
   std::array<double, max_nodes_per_cell<dim>> values;
   CellCut<dim>                                result;
+  double                                      largest = 0.;
   for (unsigned int i = 0; i < basis.n_nodes; ++i)
-    values[i] = piece.value(nodes[i]);
+    {
+      values[i] = piece.value(nodes[i]);
+      largest   = std::max(largest, std::abs(values[i]));
+    }
+  // Of the size of a distance, whatever the slope.
+  if (largest < 1e-3 * cell_size || largest > 1e3 * cell_size)
+    for (unsigned int i = 0; i < basis.n_nodes; ++i)
+      values[i] *= cell_size / largest;
   nudge(values.data(), basis.n_nodes, cell_size, result.scaled.data());
   result.location = location_of(result.scaled.data(), basis.n_nodes);
   if (result.location != CellLocation::cut)
@@ -121,6 +129,7 @@ Cutter<dim>::find_planes()
   for (unsigned int p = 0; p < pieces.size(); ++p)
     {
       CellPlane<dim> plane{{}, 0.};
+      double         largest = 0.;
       for (unsigned int v = 0; v < n_vertices; ++v)
         {
           unsigned int node = 0, stride = k;
@@ -128,11 +137,12 @@ Cutter<dim>::find_planes()
             node += (v >> d & 1u) * stride;
           const double value = pieces[p].value(nodes[node]) / (cell_size * n_vertices);
           plane.offset += value;
+          largest = std::max(largest, std::abs(value));
           for (unsigned int d = 0; d < dim; ++d)
             plane.normal[d] += 2. * ((v >> d & 1u) != 0 ? value : -value);
         }
       const double slope = plane.normal.norm();
-      if (!(slope > 1e-6))
+      if (!(slope > 1e-6 * largest))
         continue;
       plane.normal /= slope;
       plane.offset /= slope;

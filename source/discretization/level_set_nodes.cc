@@ -87,42 +87,50 @@ LevelSetNodes<dim>::facing_values(const unsigned int cell, const Body<dim> &body
   cell_values(cell, body.level_set, values);
   if (!body.shape || body.shape->is_smooth())
     return;
-  const double looks_away = -0.5 * towards.norm(), size = grid.cells()[cell].size;
-  const std::vector<dealii::Point<dim>> nodes = initial_nodes(cell, body);
-  const auto pieces_near = [&](const dealii::Point<dim> &X, const double reach) {
-    dealii::BoundingBox<dim> box({X, X});
+  const GridCell<dim>                  &geometry = grid.cells()[cell];
+  const double                          size     = geometry.size;
+  const std::vector<dealii::Point<dim>> nodes    = initial_nodes(cell, body);
+  // The pieces near a node: their distances where the body is now, and whether they look towards.
+  struct Side
+  {
+    double distance;
+    bool   faces;
+  };
+  const auto sides_near = [&](const unsigned int i, const double reach) {
+    dealii::BoundingBox<dim> box({nodes[i], nodes[i]});
     box.extend(reach);
     std::vector<SmoothPiece<dim>> pieces;
     body.shape->append_pieces(box, pieces);
-    return pieces;
-  };
-  // The direction of a piece where the body is now.
-  const auto faces = [&](const SmoothPiece<dim> &piece, const unsigned int node) {
-    const dealii::Point<dim> x
-      = grid.cells()[cell].lower + size * dealii::Tensor<1, dim>(lagrange.node(node));
-    dealii::Tensor<1, dim> gradient;
-    for (unsigned int d = 0; d < dim; ++d)
+    const dealii::Point<dim> x = geometry.lower + size * dealii::Tensor<1, dim>(lagrange.node(i));
+    std::vector<Side>        result;
+    for (const auto &piece : pieces)
       {
-        const dealii::Tensor<1, dim> step = 0.1 * size * dealii::Point<dim>::unit_vector(d);
-        gradient[d]                       = piece.value(initial_position<dim>(body, x + step))
-                      - piece.value(initial_position<dim>(body, x - step));
+        dealii::Tensor<1, dim> slope;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const dealii::Tensor<1, dim> step = 0.1 * size * dealii::Point<dim>::unit_vector(d);
+            slope[d]                          = (piece.value(initial_position<dim>(body, x + step))
+                        - piece.value(initial_position<dim>(body, x - step)))
+                       / (0.2 * size);
+          }
+        const double distance = piece.value(nodes[i]) / slope.norm();
+        if (std::abs(distance) <= 1.001 * reach)
+          result.push_back({distance, slope * towards > -0.5 * slope.norm() * towards.norm()});
       }
-    return gradient * towards > looks_away * gradient.norm();
+    return result;
   };
   for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
     {
       const double reach  = std::abs(values[i]) + 1e-9 * size;
-      const auto   nearby = pieces_near(nodes[i], reach);
-      if (nearby.empty() || reach > 3. * size
-          || std::any_of(nearby.begin(), nearby.end(), [&](const auto &piece) {
-               return std::abs(piece.value(nodes[i])) <= reach && faces(piece, i);
-             }))
+      const auto   looks  = [](const Side &side) { return side.faces; };
+      const auto   nearby = reach > 3. * size ? std::vector<Side>() : sides_near(i, reach);
+      if (nearby.empty() || std::any_of(nearby.begin(), nearby.end(), looks))
         continue;
-      double largest = -std::numeric_limits<double>::max();
-      for (const auto &piece : pieces_near(nodes[i], reach + 2. * size))
-        if (faces(piece, i))
-          largest = std::max(largest, piece.value(nodes[i]));
-      if (largest > -std::numeric_limits<double>::max())
+      double largest = std::numeric_limits<double>::lowest();
+      for (const auto &side : sides_near(i, reach + 2. * size))
+        if (side.faces)
+          largest = std::max(largest, side.distance);
+      if (largest > std::numeric_limits<double>::lowest())
         values[i] = largest;
     }
 }

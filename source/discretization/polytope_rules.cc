@@ -38,14 +38,46 @@ facet_jacobian(const std::vector<Point<dim>> &vertices)
     return cross_product_3d(vertices[1] - vertices[0], vertices[2] - vertices[0]).norm();
 }
 
+/** Appends a Gauss rule on a facet of a 3D cell that is a rectangle; else nothing. */
+template <int dim>
+bool
+append_on_rectangle([[maybe_unused]] const Facet<dim> &facet, [[maybe_unused]] const unsigned int n,
+                    [[maybe_unused]] const double area, [[maybe_unused]] CellPoints<dim> &result)
+{
+  if constexpr (dim == 3)
+    {
+      const auto &v = facet.vertices;
+      if (v.size() != 4)
+        return false;
+      const Tensor<1, dim> s = v[1] - v[0], t = v[3] - v[0];
+      if ((v[0] + s + t).distance(v[2]) > 1e-14 || std::abs(s * t) > 1e-14)
+        return false;
+      const dealii::QGauss<2> gauss(n);
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          result.points.push_back(v[0] + gauss.point(q)[0] * s + gauss.point(q)[1] * t);
+          result.weights.push_back(gauss.weight(q) * s.norm() * t.norm() * area);
+        }
+      return true;
+    }
+  return false;
+}
+
+/** Rules are expensive to make. */
 template <int rule_dim>
-dealii::Quadrature<rule_dim>
+const dealii::Quadrature<rule_dim> &
 simplex_rule(const unsigned int n)
 {
-  if constexpr (rule_dim == 1)
-    return dealii::QGauss<1>(n);
-  else
-    return dealii::QWitherdenVincentSimplex<rule_dim>(n);
+  static const std::vector<dealii::Quadrature<rule_dim>> rules = []() {
+    std::vector<dealii::Quadrature<rule_dim>> result(1);
+    for (unsigned int i = 1; i <= 4; ++i)
+      if constexpr (rule_dim == 1)
+        result.push_back(dealii::QGauss<1>(i));
+      else
+        result.push_back(dealii::QWitherdenVincentSimplex<rule_dim>(i));
+    return result;
+  }();
+  return rules.at(n);
 }
 } // namespace
 
@@ -72,7 +104,7 @@ append_rule(const Polytope<dim> &part, const unsigned int k, const double cell_s
         }
       return;
     }
-  const auto rule = simplex_rule<dim>(k + 1);
+  const auto &rule = simplex_rule<dim>(k + 1);
   for (const auto &simplex : part.simplices())
     {
       Tensor<2, dim> edges;
@@ -87,7 +119,13 @@ void
 append_rule(const Facet<dim> &facet, const Tensor<1, dim> &normal, const unsigned int k,
             const double cell_size, CellPoints<dim> &result)
 {
-  const auto rule = simplex_rule<dim - 1>(dim == 2 ? k + 1 : (3 * k + 2) / 2);
+  const unsigned int n = dim == 2 ? k + 1 : (3 * k + 2) / 2;
+  if (append_on_rectangle(facet, n, std::pow(cell_size, dim - 1), result))
+    {
+      result.normals.resize(result.points.size(), normal);
+      return;
+    }
+  const auto &rule = simplex_rule<dim - 1>(n);
   for (const auto &simplex : simplices_of(facet))
     {
       const double jacobian = facet_jacobian<dim>(simplex) * std::pow(cell_size, dim - 1);

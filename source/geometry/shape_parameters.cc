@@ -255,6 +255,18 @@ make_polygon(const std::vector<Point<2>> &vertices)
 
 template <int dim>
 ShapePointer<dim>
+make_expression(const ShapeParameters<dim> &p)
+{
+  const std::vector<std::string> arguments = extremum_arguments(p.expression);
+  std::vector<Expression<dim>>   pieces;
+  for (std::size_t i = 0; arguments.size() > 1 && i < arguments.size(); ++i)
+    pieces.emplace_back(arguments[i], 1, "Expression");
+  return std::make_unique<ExpressionShape<dim>>(Expression<dim>(p.expression, 1, "Expression"),
+                                                p.expression_is_distance, pieces);
+}
+
+template <int dim>
+ShapePointer<dim>
 make_unmoved_shape(const ShapeParameters<dim> &p)
 {
   switch (p.type)
@@ -279,8 +291,7 @@ make_unmoved_shape(const ShapeParameters<dim> &p)
       return std::make_unique<Superellipse<dim>>(to_point<dim>(p.centre),
                                                  to_point<dim>(p.semi_axes), p.exponent);
     case Type::expression:
-      return std::make_unique<ExpressionShape<dim>>(Expression<dim>(p.expression, 1, "Expression"),
-                                                    p.expression_is_distance);
+      return make_expression<dim>(p);
     default:
       break;
     }

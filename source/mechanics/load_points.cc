@@ -234,6 +234,18 @@ public:
                   0.5 * edge, depth + 1);
   }
 
+  /** A flat facet. */
+  void add_facet(const Facet<dim> &facet, const Tensor<1, dim> &normal)
+  {
+    CellPoints<dim> whole;
+    append_rule(facet, normal, basis.degree, cell.size, whole);
+    if (is_uniform(whole))
+      result.append(whole);
+    else
+      for (const auto &simplex : simplices_of(facet))
+        add_flat(simplex, normal, 0);
+  }
+
   /** A simplex of a flat facet. */
   void add_flat(const std::vector<Point<dim>> &simplex, const Tensor<1, dim> &normal,
                 const unsigned int depth)

@@ -74,6 +74,24 @@ TEST(Pieces, OfComposedAndMovedShapes)
   EXPECT_LE(notch[0].foot(moved({0.45, 0.}), 1e-4).distance(x), 1e-9);
 }
 
+TEST(Pieces, OfExpressions)
+{
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(extremum_arguments("max(x - 1, min(-y, (max(y, 2)) ))"),
+            Texts({"x - 1", "-y", "y", "2"}));
+  EXPECT_EQ(extremum_arguments("max(x, y) + max(x, 1)"), Texts({"max(x, y) + max(x, 1)"}));
+  EXPECT_EQ(extremum_arguments(" x^2 + 1 "), Texts({"x^2 + 1"}));
+  ShapeParameters<2> parameters;
+  parameters.type       = ShapeType::expression;
+  parameters.expression = "max(100*(x - 1), -y)";
+  const auto shape      = make_shape(parameters);
+  EXPECT_FALSE(shape->is_smooth());
+  EXPECT_EQ(n_active<2>(*shape, Point<2>(1., 0.)), 2u);
+  EXPECT_EQ(n_active<2>(*shape, Point<2>(1., 1.)), 1u);
+  parameters.expression = "x^2 + y^2 - 1";
+  EXPECT_TRUE(make_shape(parameters)->is_smooth());
+}
+
 TEST(Pieces, OfRingsAndDiamonds)
 {
   const Ring<2> ring(Point<2>(), 1., 1.005);
