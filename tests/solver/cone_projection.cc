@@ -1,6 +1,6 @@
-#include <scree/solver/cone_projection.h>
-
 #include <gtest/gtest.h>
+
+#include <scree/solver/cone_projection.h>
 
 #include <cmath>
 #include <random>
