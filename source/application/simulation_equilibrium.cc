@@ -181,16 +181,14 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
                     equilibrium->round_off() / parameters.newton.relative_tolerance);
   };
   contact->set_touching_holds(true);
-  if (!equilibrium->free_bodies().empty())
-    {
-      hooks.set_mass = [&](const double factor) {
-        is_transient = factor > Equilibrium<dim>::default_mass_factor;
-        equilibrium->set_artificial_mass(factor);
-      };
-      hooks.freeze    = [&](const bool freeze) { contact->freeze_friction(freeze); };
-      hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
-    }
-  hooks.observe = [&](const NewtonIteration &iteration) {
+  const bool has_mass = !equilibrium->free_bodies().empty();
+  hooks.set_mass      = [&, has_mass](const double factor) {
+    is_transient = has_mass && factor > Equilibrium<dim>::default_mass_factor;
+    equilibrium->set_artificial_mass(factor);
+  };
+  hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
+  hooks.freeze    = [&](const bool freeze) { contact->freeze_friction(freeze); };
+  hooks.observe   = [&](const NewtonIteration &iteration) {
     count_flips();
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
                              + short_number(iteration.residual) + " of "
@@ -198,7 +196,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     if (parameters.output.log_iterations)
       log.line("  " + text + ", step length " + short_number(iteration.step_length));
     log.progress(step_control.time() / parameters.time.end_time,
-                 "step " + std::to_string(record.step) + ", " + text);
+                   "step " + std::to_string(record.step) + ", " + text);
   };
   return Newton(parameters.newton, hooks).solve(u);
 }

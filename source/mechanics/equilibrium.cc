@@ -211,7 +211,12 @@ Equilibrium<dim>::settle(Vector &u, const ContactHistory<dim> &history)
 {
   Vector r(u);
   residual(u, history, r);
-  const auto motion = free.settling(loads_on_free_bodies());
+  const auto evaluate = [&](const typename FreeBodies<dim>::Coordinates &motion) {
+    Vector moved(u);
+    free.add(motion, moved);
+    residual(moved, history, r);
+  };
+  const auto motion = free.settling(loads_on_free_bodies(), evaluate);
   if (!motion.empty())
     free.add(motion, u);
 }

@@ -64,7 +64,8 @@ FreeBodies<dim>::gaps() const
 
 template <int dim>
 typename FreeBodies<dim>::Coordinates
-FreeBodies<dim>::settling(const Coordinates &resultants) const
+FreeBodies<dim>::settling(const Coordinates                              &resultants,
+                          const std::function<void(const Coordinates &)> &evaluate) const
 {
   constexpr double    how_far = 3., lightest = 1e-3, of_held = 1e6, negligible_gap = 1e-6;
   const auto          loose    = not_held();
@@ -85,7 +86,6 @@ FreeBodies<dim>::settling(const Coordinates &resultants) const
     }
   if (distance <= how_far * negligible_gap * size)
     return {};
-  // z = weight (q - wanted)
   Coordinates weight, wanted;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int k = 0; k < bases[i].n(); ++k)
@@ -96,23 +96,51 @@ FreeBodies<dim>::settling(const Coordinates &resultants) const
                            ? distance * resultants[first[i] + k] / (heaviest * squared)
                            : 0.);
       }
-  Coordinates rows, h, row;
+  Coordinates columns, room, q(n_coordinates, 0.);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
-      const auto      &point = contact.points()[i];
-      const ContactLaw law   = contact.pairs()[point.pair].law.law;
+      append_column(contact.points()[i], contact.points()[i].normal, columns);
+      room.push_back(std::max(0., contact.gap(i)));
+    }
+  // A second time with what the first motion did to the gaps: feet are not exactly along normals.
+  for (unsigned int pass = 0; pass < 2 && !q.empty(); ++pass)
+    {
+      q = least_motion(columns, room, weight, wanted);
+      if (q.empty() || pass == 1)
+        break;
+      evaluate(q);
+      for (unsigned int i = 0; i < room.size(); ++i)
+        {
+          double change = 0.;
+          for (unsigned int k = 0; k < n_coordinates; ++k)
+            change += columns[i * n_coordinates + k] * q[k];
+          if (room[i] > 0.)
+            room[i] = contact.gap(i) - change;
+        }
+    }
+  return q;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::least_motion(const Coordinates &columns, const Coordinates &room,
+                              const std::vector<double> &weight, const Coordinates &wanted) const
+{
+  // z = weight (q - wanted)
+  Coordinates rows, h;
+  for (unsigned int i = 0; i < room.size(); ++i)
+    {
+      const ContactLaw law = contact.pairs()[contact.points()[i].pair].law.law;
       if (law == ContactLaw::none || law == ContactLaw::tied)
         continue;
-      row.clear();
-      append_column(point, point.normal, row);
-      double room = std::max(0., contact.gap(i));
+      double left = room[i];
       for (unsigned int k = 0; k < n_coordinates; ++k)
         {
-          room += row[k] * wanted[k];
-          row[k] /= weight[k];
+          const double column = columns[i * n_coordinates + k];
+          left += column * wanted[k];
+          rows.push_back(column / weight[k]);
         }
-      rows.insert(rows.end(), row.begin(), row.end());
-      h.push_back(-room);
+      h.push_back(-left);
     }
   const auto  all_rows = dealii::Utilities::MPI::gather(communicator, rows);
   const auto  all_h    = dealii::Utilities::MPI::gather(communicator, h);
@@ -163,12 +191,14 @@ FreeBodies<dim>::unbalanced(const Coordinates &resultants) const
   return dealii::Utilities::MPI::broadcast(communicator, result);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                  \
-  template std::vector<double>                   FreeBodies<dim>::gaps() const; \
-  template typename FreeBodies<dim>::Coordinates FreeBodies<dim>::settling(     \
-    const typename FreeBodies<dim>::Coordinates &) const;                       \
-  template typename FreeBodies<dim>::Coordinates FreeBodies<dim>::unbalanced(   \
-    const typename FreeBodies<dim>::Coordinates &) const;
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template std::vector<double> FreeBodies<dim>::gaps() const;                                     \
+  template std::vector<double> FreeBodies<dim>::settling(                                         \
+    const std::vector<double> &, const std::function<void(const std::vector<double> &)> &) const; \
+  template std::vector<double> FreeBodies<dim>::least_motion(                                     \
+    const std::vector<double> &, const std::vector<double> &, const std::vector<double> &,        \
+    const std::vector<double> &) const;                                                           \
+  template std::vector<double> FreeBodies<dim>::unbalanced(const std::vector<double> &) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

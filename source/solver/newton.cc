@@ -27,6 +27,12 @@ constexpr unsigned int stall_iterations     = 8;
 constexpr double       stall_reduction      = 0.7;
 constexpr double       first_mass           = 0.1;
 constexpr double       smallest_mass        = 1e-6;
+constexpr double       first_later_mass     = 1e-4;
+constexpr double       smallest_later_mass  = 1e-9;
+constexpr double       mass_decay           = 0.1;
+constexpr double       mass_growth          = 4;
+constexpr double       short_step           = 0.01;
+constexpr unsigned int max_short_steps      = 3;
 constexpr double       largest_mass         = 10;
 constexpr double       energy_overshoot     = 0.5;
 constexpr double       energy_reduction     = 0.1;
@@ -116,8 +122,18 @@ struct Newton::Step
 struct Newton::Progress
 {
   bool         is_transient = false; //!< the first part of a round
+  bool         is_later     = false; //!< in a round
   double       mass         = 0.;    //!< s
   unsigned int iterations   = 0;     //!< before this method
+
+  /** Makes s smaller after a long step, larger after a short one. */
+  void adapt(const double alpha)
+  {
+    if (alpha > 0.5)
+      mass = std::max(is_transient ? smallest_mass : smallest_later_mass, mass_decay * mass);
+    else if (alpha < 0.2)
+      mass = std::min(largest_mass, mass_growth * mass);
+  }
 };
 
 Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
@@ -239,10 +255,7 @@ Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progre
             G_a *= 0.5;
           }
       }
-  if (step.alpha > 0.5)
-    progress.mass = std::max(smallest_mass, 0.1 * progress.mass);
-  else if (step.alpha < 0.2)
-    progress.mass = std::min(largest_mass, 4. * progress.mass);
+  progress.adapt(step.alpha);
   return step;
 }
 
@@ -262,19 +275,23 @@ Newton::solve(Vector &u) const
     next.residuals = std::move(before);
     result         = std::move(next);
   };
-  progress.mass = first_mass;
+  double transient_mass = first_mass;
   while (!result.converged() && result.iterations < parameters.max_iterations)
     {
       progress.is_transient = true;
+      progress.is_later     = true;
+      progress.mass         = transient_mass;
       hooks.residual(last, u);
       hooks.freeze(true);
       go_on(last);
       hooks.freeze(false);
-      hooks.set_mass(smallest_mass);
+      transient_mass        = std::max(progress.mass, first_later_mass);
+      progress.mass         = first_later_mass;
       progress.is_transient = false;
       u                     = last;
       go_on(u);
     }
+  hooks.set_mass(smallest_mass);
   return result;
 }
 
@@ -284,8 +301,9 @@ Newton::iterate(Vector &u, Progress &progress) const
   NewtonResult    result;
   NewtonIteration iteration;
   iteration.number = progress.iterations;
-  Vector r(u), du(u);
-  double linear_tolerance = parameters.loosest_linear_tolerance;
+  Vector       r(u), du(u);
+  double       linear_tolerance = parameters.loosest_linear_tolerance;
+  unsigned int n_short_steps    = 0;
   hooks.residual(u, r);
   iteration.residual = r.l2_norm();
 
@@ -323,7 +341,8 @@ Newton::iterate(Vector &u, Progress &progress) const
               || iteration.residual <= transient_reduction * result.residuals.front()))
         return ended_as(NewtonStatus::stalled,
                         told("frozen friction: iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (hooks.set_mass && !progress.is_transient && is_stalled(result.residuals))
+      if (hooks.set_mass && !progress.is_transient
+          && (is_stalled(result.residuals) || n_short_steps >= max_short_steps))
         return ended_as(NewtonStatus::stalled,
                         told("stalled in iteration %u, |r| = %.3e (tolerance %.3e)"));
       if (iteration.number >= parameters.max_iterations)
@@ -334,7 +353,7 @@ Newton::iterate(Vector &u, Progress &progress) const
                                       parameters.loosest_linear_tolerance);
       try
         {
-          if (progress.is_transient)
+          if (progress.is_later)
             hooks.set_mass(progress.mass);
           hooks.solve(u, r, linear_tolerance, du);
         }
@@ -344,11 +363,14 @@ Newton::iterate(Vector &u, Progress &progress) const
           return ended_as(NewtonStatus::linear_solver_failure, failure.what());
         }
 
-      const Step step             = progress.is_transient ? search_energy(u, du, r, progress)
-                                                          : search(u, du, r, iteration.residual);
+      const Step step = progress.is_transient ? search_energy(u, du, r, progress)
+                                              : search(u, du, r, iteration.residual);
+      if (progress.is_later && !progress.is_transient)
+        progress.adapt(step.alpha);
       u                           = step.u;
       r                           = step.r;
       iteration.residual          = step.norm;
+      n_short_steps               = step.alpha < short_step ? n_short_steps + 1 : 0;
       iteration.step_length       = step.alpha;
       iteration.increment         = step.alpha * du.l2_norm();
       iteration.extra_evaluations = step.evaluations - 1;

@@ -5,6 +5,7 @@
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -88,8 +89,11 @@ public:
    *
    * D three times the sum of their gaps: everything falls far enough to meet something, what
    * nothing stops does not go far. Empty: no such body is away from all others (collective).
+   *
+   * @param evaluate evaluates the contact after a motion: what its gaps are then corrects n.[[q]]
    */
-  Coordinates settling(const Coordinates &resultants) const;
+  Coordinates settling(const Coordinates                              &resultants,
+                       const std::function<void(const Coordinates &)> &evaluate) const;
 
   /** Adds a motion to the displacement (without ghosts). */
   void add(const Coordinates &motion, dealii::TrilinosWrappers::MPI::Vector &u) const;
@@ -117,6 +121,9 @@ private:
   void find_unknowns(const Fields<dim> &fields);
   /** What coordinate k of a free body does to its unknown j. */
   double along(const unsigned int free_body, const unsigned int j, const unsigned int k) const;
+  /** The q nearest to `wanted` with room + columns q >= 0; empty: there is none (collective). */
+  Coordinates least_motion(const Coordinates &columns, const Coordinates &room,
+                           const Coordinates &weight, const Coordinates &wanted) const;
   /** Smallest gap around each free body, 0 if it touches. */
   std::vector<double> gaps() const;
   /** Appends what the coordinates do to the relative motion at a contact point along `direction`.

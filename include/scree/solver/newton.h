@@ -119,20 +119,21 @@ struct NewtonResult
  * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
  *
  * *Pseudo-transient continuation:* with an artificial mass M the iteration ends as stalled when the
- * smallest residual of its last 8 iterations is not below 0.7 of the smallest before them. After
- * that, or any other failure, rounds of two parts go on from the first guess. The first part has
- * the bounds of friction frozen, so that what is linear otherwise has a convex energy, and takes
- * proximal steps (Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998, 508-523), 12 at most, until |r|
- * falls to 1e-3:
+ * smallest residual of its last 8 iterations is not below 0.7 of the smallest before them, or when
+ * 3 steps in a row were shorter than 0.01. After that, or any other failure, rounds of two parts go
+ * on from the first guess. The first part has the bounds of friction frozen, so that what is linear
+ * otherwise has a convex energy, and takes proximal steps (Kelley, Keyes, SIAM J. Numer. Anal. 35,
+ * 1998, 508-523), 12 at most, until |r| falls to 1e-3:
  *
  *     (K(u) + s M) du = r(u),    G(alpha) = r(u + alpha du) . du - alpha s du . M du,
  *
  * where alpha = 1 if |G(1)| <= G(0)/2 or G(1) > 0, else |G(alpha)| <= G(0)/10: near the minimum
- * along du of the energy plus s |u' - u|_M^2/2. s is 0.1 at first, a tenth after a step of alpha >
- * 1/2 and four times as large after one of alpha < 0.2. The second part is the iteration above,
- * from where the first one ended and with friction set free; if it fails too, the next round goes
- * on from where the first part ended. M holds what moves freely and never enters r: what converged
- * is in balance without it.
+ * along du of the energy plus s |u' - u|_M^2/2. s is 0.1 at first, a tenth, at least 1e-6, after a
+ * step of alpha > 1/2 and four times as large after one of alpha < 0.2. The second part is the
+ * iteration above from where the first one ended, with friction set free and with s from 1e-4 to
+ * 1e-9 by the same rule, so that what drifts under a small force finds what stops it; if it fails
+ * too, the next round goes on from where the first part ended. M holds what moves freely and never
+ * enters r: what converged is in balance without it.
  *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
