@@ -84,12 +84,6 @@ Parameters<dim>::declare(ParameterFile &file)
       if (!moving.is_moving && needs_moving_geometry(law))
         moving_section.error("Update", uses + ", which needs a moving geometry",
                              "set Update = every step, or choose Law = linear elastic");
-      if (is_plastic(law) && degree == 1)
-        discretization.error("Degree",
-                             uses
-                               + ": plastic flow keeps the volume, which locks "
-                                 "elements of degree 1",
-                             "set Degree = 2");
     }
 
   ParameterSection time_section = root.subsection("Time", "Load steps.");

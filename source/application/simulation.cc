@@ -101,8 +101,8 @@ Simulation<dim>::discretise()
                                is_moving() ? "history at quadrature points" : "quadrature");
     bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty,
                                        step_start.get());
-    boundary_terms = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature,
-                                                          bodies, step_start.get());
+    boundary_terms
+      = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies, *bulk);
   }
   set_up_equilibrium();
 }

@@ -79,6 +79,7 @@ Simulation<dim>::moved_points(const typename Equilibrium<dim>::Vector &u) const
   std::vector<dealii::Tensor<1, dim>> increments(points.size());
   std::vector<dealii::Tensor<2, dim>> gradients(points.size());
   ShapeValues<dim>                    shape;
+  const auto                          volumes = bulk->cell_volumes(equilibrium->with_ghosts(u));
   for (std::size_t p = 0; p < points.size(); ++p)
     {
       const auto  &location = step_start->material_points()[p];
@@ -98,6 +99,8 @@ Simulation<dim>::moved_points(const typename Equilibrium<dim>::Vector &u) const
       dealii::Tensor<2, dim>  F_D     = gradients[p];
       for (unsigned int d = 0; d < dim; ++d)
         F_D[d][d] += 1.;
+      F_D = bulk->projected_increment(location.active_cell, location.unit_point,
+                                      volumes[location.active_cell], F_D, start);
       IncrementResponse<dim> response;
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
                   dealii::ArrayView<const IncrementStart>(&start, 1),

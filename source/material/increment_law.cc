@@ -7,6 +7,7 @@
 #include <scree/material/small_strain.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace scree
@@ -29,9 +30,9 @@ struct Registration
 
 template <int dim, class Law>
 std::unique_ptr<IncrementLaw<dim>>
-elastic(const IsotropicModuli &moduli, const Hardening &)
+elastic(const IsotropicModuli &moduli, const Hardening &hardening)
 {
-  return std::make_unique<IncrementLawOf<dim, Law>>(Law(moduli));
+  return std::make_unique<IncrementLawOf<dim, Law>>(Law(moduli), moduli, hardening);
 }
 
 /** Also for laws that are elastic because the yield stress is infinite. */
@@ -39,7 +40,7 @@ template <int dim, class Law>
 std::unique_ptr<IncrementLaw<dim>>
 plastic(const IsotropicModuli &moduli, const Hardening &hardening)
 {
-  return std::make_unique<IncrementLawOf<dim, Law>>(Law(moduli, hardening));
+  return std::make_unique<IncrementLawOf<dim, Law>>(Law(moduli, hardening), moduli, hardening);
 }
 
 /** All laws: a new one is registered by one line here. */
@@ -62,6 +63,33 @@ registered_laws()
 }
 
 } // namespace
+
+template <int dim>
+IncrementLaw<dim>::IncrementLaw(const IsotropicModuli &moduli, const Hardening &hardening)
+    : moduli(moduli)
+    , hardening(hardening)
+{
+}
+
+template <int dim>
+double
+IncrementLaw<dim>::projected_share() const
+{
+  if (std::isfinite(hardening.yield_stress))
+    return 1.;
+  return std::max(0., moduli.lambda) / (moduli.lambda + 2. * moduli.mu / dim);
+}
+
+template <int dim>
+double
+IncrementLaw<dim>::secant_ratio(const double alpha) const
+{
+  if (!std::isfinite(hardening.yield_stress))
+    return 1.;
+  const double plastic = std::max(0., alpha);
+  const double elastic = (hardening.yield_stress + hardening.modulus * plastic) / (3. * moduli.mu);
+  return elastic / (elastic + plastic);
+}
 
 template <int dim>
 IncrementStart

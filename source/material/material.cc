@@ -69,7 +69,7 @@ problems_of(const MaterialParameters &parameters)
   if (!(parameters.poisson > -1 && parameters.poisson < 0.5))
     problems.push_back(
       {"Poisson's ratio", "must be set to a number greater than -1 and less than 0.5",
-       "0.5 (incompressible) is not possible in a displacement formulation; take 0.49 at most"});
+       "0.5 (incompressible) is not possible in a displacement formulation; take 0.49999 at most"});
   if (!(parameters.density >= 0))
     problems.push_back({"Density", "must not be negative", "give the mass per volume, or 0"});
   return problems;

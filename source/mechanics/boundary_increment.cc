@@ -11,6 +11,8 @@ struct BoundaryTerms<dim>::PointIncrement
   dealii::Tensor<2, dim> piola;
   dealii::Tensor<4, dim> tangent;
   ShapeValues<dim>       shape; //!< gradients physical
+  /** What the projected volume change of the cell adds to the derivative of P by its unknowns. */
+  std::vector<dealii::Tensor<2, dim>> by_volume;
 };
 
 template <int dim>
@@ -58,13 +60,37 @@ BoundaryTerms<dim>::increment_at(const unsigned int region, const unsigned int q
       for (unsigned int d = 0; d < dim; ++d)
         result.increment[d] += u(nodes[a] + d) * result.shape.gradient[a];
     }
+  const bool is_pressure
+    = boundary_regions[region].condition->parameters.type == ConditionType::pressure;
+  const auto             volume    = is_pressure ? typename Bulk<dim>::CellVolume()
+                                                 : bulk.cell_volume(point.active_cell, u, with_tangent);
+  dealii::Tensor<2, dim> projected = result.increment;
+  VolumeChange<dim>      change;
+  if (volume.is_projected)
+    change = bulk.volume_change(point.active_cell, point.unit_point, volume, result.increment,
+                                starts[region][q], projected);
   IncrementResponse<dim> response;
   bodies[boundary_regions[region].body].law->respond(
-    dealii::ArrayView<const dealii::Tensor<2, dim>>(&result.increment, 1),
+    dealii::ArrayView<const dealii::Tensor<2, dim>>(&projected, 1),
     dealii::ArrayView<const IncrementStart>(&starts[region][q], 1),
     dealii::ArrayView<IncrementResponse<dim>>(&response, 1),
     dealii::ArrayView<dealii::Tensor<4, dim>>(&result.tangent, with_tangent ? 1 : 0));
   result.piola = response.piola;
+  if (!volume.is_projected)
+    return result;
+  const auto stress = change.stress(response.piola);
+  result.piola      = stress.scaled;
+  if (with_tangent)
+    {
+      const auto tangent = change.tangent(stress, result.tangent);
+      const auto psi     = bulk.volume_modes(point.active_cell)(point.unit_point);
+      result.tangent     = tangent.scaled;
+      result.by_volume.resize(fields.basis.n_nodes * dim);
+      for (unsigned int m = 0; m < psi.size(); ++m)
+        for (unsigned int i = 0; i < result.by_volume.size(); ++i)
+          result.by_volume[i]
+            += change.slope * psi[m] * volume.derivatives[m][i] * tangent.scaled_by_volume;
+    }
   return result;
 }
 
@@ -111,7 +137,8 @@ BoundaryTerms<dim>::add_internal_forces(const Vector &u, const double time, Vect
                 * transpose(invert(here.increment)) * point.normal;
           else
             {
-              const dealii::Tensor<1, dim> flux = here.piola * point.normal;
+              const dealii::Tensor<1, dim> flux
+                = flow_ratio(point.active_cell) * here.piola * point.normal;
               for (const unsigned int c : condition.components)
                 t[c] = -flux[c];
             }
@@ -160,7 +187,7 @@ BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
           else
             for (const unsigned int c : condition.components)
               for (unsigned int j = 0; j < dim; ++j)
-                dt[c] -= here.tangent[c][j] * point.normal[j];
+                dt[c] -= flow_ratio(point.active_cell) * here.tangent[c][j] * point.normal[j];
           for (unsigned int b = 0; b < n; ++b)
             for (unsigned int i = 0; i < dim; ++i)
               {
@@ -170,6 +197,15 @@ BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
                     block(a * dim + i, b * dim + k)
                       = point.weight * here.shape.value[a] * column[k];
               }
+          if (!here.by_volume.empty())
+            for (const unsigned int c : condition.components)
+              for (unsigned int j = 0; j < n * dim; ++j)
+                {
+                  const double change
+                    = flow_ratio(point.active_cell) * (here.by_volume[j] * point.normal)[c];
+                  for (unsigned int a = 0; a < n; ++a)
+                    block(a * dim + c, j) -= point.weight * here.shape.value[a] * change;
+                }
           fields.hanging_constraints().distribute_local_to_global(
             block, unknowns_of_nodes<dim>(fields.nodes(point.active_cell), n), matrix);
         }

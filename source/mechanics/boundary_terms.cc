@@ -23,12 +23,15 @@ template <int dim>
 BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const CutQuadrature<dim>     &quadrature,
-                                  const std::vector<Body<dim>> &bodies, const StepStart<dim> *start)
+                                  const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk)
     : fields(fields)
     , bodies(bodies)
-    , boundary_regions(find_boundary_regions(fields, level_set_nodes, quadrature, bodies, start))
-    , start(start)
+    , boundary_regions(
+        find_boundary_regions(fields, level_set_nodes, quadrature, bodies, bulk.step_start()))
+    , bulk(bulk)
+    , start(bulk.step_start())
 {
+  find_moments();
   if (start)
     find_starts();
 }
@@ -39,7 +42,7 @@ BoundaryTerms<dim>::beta(const BoundaryRegion<dim> &region, const unsigned int q
 {
   const ActiveCell &cell = fields.cells()[region.points[q].active_cell];
   const double      k    = fields.basis.degree;
-  return region.condition->parameters.penalty_factor * k * k
+  return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
          * bodies[region.body].material->p_wave_modulus()
          / fields.grid.cells()[cell.grid_cell].size;
 }
@@ -64,14 +67,18 @@ BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
   const auto  &n     = point.normal;
   fields.basis.evaluate(point.unit_point, shape);
   vectors.resize(fields.basis.n_nodes * dim);
+  std::vector<double> divergence;
+  const bool          is_projected
+    = bulk.projected_divergence(point.active_cell, point.unit_point, divergence);
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     {
       const dealii::Tensor<1, dim> g  = scale * shape.gradient[a];
       const double                 gn = g * n;
       for (unsigned int i = 0; i < dim; ++i)
         {
-          // sigma = lambda g_i I + mu (e_i g + g e_i)
-          dealii::Tensor<1, dim> vector = lambda * g[i] * n + mu * n[i] * g;
+          // sigma = lambda div I + mu (e_i g + g e_i)
+          const double           div    = is_projected ? divergence[a * dim + i] : g[i];
+          dealii::Tensor<1, dim> vector = lambda * div * n + mu * n[i] * g;
           vector[i] += mu * gn;
           vectors[a * dim + i] = vector;
         }
@@ -146,7 +153,8 @@ BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
         const auto method = region.condition->parameters.method;
         const bool nitsche
           = type == ConditionType::displacement && method != DisplacementMethod::penalty;
-        const double adjoint = method == DisplacementMethod::nonsymmetric_nitsche ? 1. : -1.;
+        const double adjoint = (method == DisplacementMethod::nonsymmetric_nitsche ? 1. : -1.)
+                               * flow_ratio(point.active_cell);
         for (unsigned int k = 0; k < region.condition->components.size(); ++k)
           {
             const unsigned int c         = region.condition->components[k];
@@ -171,6 +179,7 @@ BoundaryTerms<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix
           }
         fields.hanging_constraints().distribute_local_to_global(block, indices, matrix);
       }
+  add_moments_to_matrix(matrix);
 }
 
 template <int dim>
@@ -223,9 +232,10 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
             {
               stress_vectors(region, point, shape, stress);
               const auto   method  = condition.parameters.method;
-              const double adjoint = method == DisplacementMethod::penalty                ? 0.
-                                     : method == DisplacementMethod::nonsymmetric_nitsche ? 1.
-                                                                                          : -1.;
+              const double adjoint = flow_ratio(point.active_cell)
+                                     * (method == DisplacementMethod::penalty                ? 0.
+                                        : method == DisplacementMethod::nonsymmetric_nitsche ? 1.
+                                                                                             : -1.);
               for (unsigned int k = 0; k < condition.components.size(); ++k)
                 {
                   const unsigned int c     = condition.components[k];
@@ -255,6 +265,8 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
           fields.hanging_constraints().distribute_local_to_global(cell_load, indices, loads);
         }
     }
+  if (prescribed)
+    add_moment_loads(loads, time);
 }
 
 template <int dim>
@@ -347,7 +359,7 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
     for (unsigned int d = 0; d < dim; ++d)
       flux += u(nodes[a] + d) * stress[a * dim + d];
   if (start && is_nonlinear(region))
-    flux = stress_vector(region, q, u);
+    flux = flow_ratio(point.active_cell) * stress_vector(region, q, u);
   const bool is_spring = condition.parameters.type == ConditionType::springs;
   for (unsigned int k = 0; k < condition.components.size(); ++k)
     {
@@ -359,7 +371,7 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
                     - beta(region, q)
                         * (displacement[c] - condition.value(k, point.reference_position, time));
     }
-  return result;
+  return is_spring ? result : result + moment_traction(region, q, u, time);
 }
 
 template <int dim>
@@ -432,6 +444,9 @@ BoundaryTerms<dim>::energy(const Vector &u, const double time) const
         {
           const auto                  &point = region.points[q];
           const dealii::Tensor<1, dim> t     = traction(region, q, u, time);
+          const bool is_spring               = condition.parameters.type == ConditionType::springs;
+          const dealii::Tensor<1, dim> of_moments
+            = is_spring ? dealii::Tensor<1, dim>() : moment_traction(region, q, u, time);
           fields.basis.evaluate_values(point.unit_point, shape.data());
           for (unsigned int k = 0; k < condition.components.size(); ++k)
             {
@@ -439,14 +454,16 @@ BoundaryTerms<dim>::energy(const Vector &u, const double time) const
               double             displacement = point.start_displacement[c];
               for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
                 displacement += shape[a] * u(fields.nodes(point.active_cell)[a] + c);
-              if (condition.parameters.type == ConditionType::springs)
+              if (is_spring)
                 sum -= 0.5 * point.weight * t[c] * displacement;
               else
                 {
-                  // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e
+                  // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e, and
+                  // half the work of the moments
                   const double e
                     = displacement - condition.value(k, point.reference_position, time);
-                  sum -= point.weight * (t[c] * e + 0.5 * beta(region, q) * e * e);
+                  sum -= point.weight
+                         * ((t[c] - 0.5 * of_moments[c]) * e + 0.5 * beta(region, q) * e * e);
                 }
             }
         }

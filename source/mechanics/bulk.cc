@@ -20,8 +20,23 @@ Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
     , ghost_penalty(fields)
     , start(start)
 {
+  for (const auto &body : bodies)
+    {
+      const auto  *material = body.material.get();
+      const double lambda   = material ? std::max(0., material->lame_lambda()) : 0.;
+      projected_shares.push_back(
+        !material ? 0.
+        : start   ? body.law->projected_share()
+                  : lambda / (material->lame_lambda() + 2. * material->shear_modulus() / dim));
+    }
+  set_up_volume_rows();
+  secant_ratios.assign(fields.cells().size(), 1.);
   if (start)
-    set_up_increments();
+    {
+      set_up_increments();
+      set_up_increment_modes();
+      find_secant_ratios();
+    }
 }
 
 template <int dim>
@@ -71,6 +86,9 @@ Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<dou
             }
     }
   matrix.reinit(n * dim, n * dim);
+  const bool is_projected = projected_shares[cell.body] > 0.;
+  if (is_projected)
+    add_projected_stiffness(active_cell, lambda, matrix);
   for (unsigned int a = 0; a < n; ++a)
     for (unsigned int b = 0; b < n; ++b)
       {
@@ -79,9 +97,9 @@ Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<dou
           trace += products[k][k][a][b];
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            matrix(a * dim + i, b * dim + j) = lambda * products[i][j][a][b]
-                                               + mu * products[j][i][a][b]
-                                               + (i == j ? mu * trace : 0.);
+            matrix(a * dim + i, b * dim + j) += (is_projected ? 0. : lambda * products[i][j][a][b])
+                                                + mu * products[j][i][a][b]
+                                                + (i == j ? mu * trace : 0.);
       }
 }
 
@@ -114,9 +132,8 @@ Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
     return;
   for (const GhostFace &face : ghost_penalty.faces())
     {
-      const auto  &material = *bodies[fields.cells()[face.cell].body].material;
-      const double factor   = gamma * material.p_wave_modulus();
-      const auto   jumps    = ghost_penalty.block(face);
+      const double factor = ghost_stiffness(face);
+      const auto   jumps  = ghost_penalty.block(face);
       cell_matrix.reinit(jumps.nodes.size() * dim, jumps.nodes.size() * dim);
       for (unsigned int i = 0; i < jumps.nodes.size(); ++i)
         for (unsigned int j = 0; j < jumps.nodes.size(); ++j)
@@ -208,8 +225,18 @@ Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit
         gradient[c] += value * scale * shape.gradient[i];
       }
   if (start)
-    return increment_sample({active_cell, unit_point}, result.displacement, gradient);
+    return increment_sample({active_cell, unit_point}, result.displacement, gradient, u);
   result.strain = symmetrize(gradient);
+  std::vector<double> rows;
+  if (projected_divergence(active_cell, unit_point, rows))
+    {
+      double projected = 0.;
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        projected += rows[i] * u(fields.nodes(active_cell)[i / dim] + i % dim);
+      const double correction = projected_shares[cell.body] / dim * (projected - trace(gradient));
+      for (unsigned int d = 0; d < dim; ++d)
+        result.strain[d][d] += correction;
+    }
   result.stress = bodies[cell.body].material->stress(result.strain);
   if (dim == 2)
     result.out_of_plane_stress = bodies[cell.body].material->out_of_plane_stress(result.strain);
@@ -220,17 +247,28 @@ template <int dim>
 double
 Bulk<dim>::linear_strain_energy(const Vector &u) const
 {
-  double energy = 0.;
+  // As u K u/2 with the matrices of the cells, which whole cells share.
+  const unsigned int         n      = fields.basis.n_nodes;
+  const std::vector<double>  values = values_by_cell(fields, u);
+  dealii::FullMatrix<double> cut_cell;
+  std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
+  double                                                                energy = 0.;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule points = rule(a);
-      double         sum    = 0.;
-      for (unsigned int q = 0; q < points.n_points; ++q)
-        {
-          const auto values = sample(a, points.points[q], u);
-          sum += 0.5 * points.weights[q] * (values.stress * values.strain);
-        }
-      energy += sum * points.weight_scale;
+      const ActiveCell &cell   = fields.cells()[a];
+      auto             &matrix = cell.is_cut
+                                   ? cut_cell
+                                   : whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
+      if (cell.is_cut || matrix.empty())
+        cell_stiffness(a, matrix);
+      // Without the translation of the cell, which has no energy but round-off.
+      const double                                     *nodal = &values[std::size_t(a) * n * dim];
+      std::array<double, dim * max_nodes_per_cell<dim>> relative;
+      for (unsigned int i = 0; i < n * dim; ++i)
+        relative[i] = nodal[i] - nodal[i % dim];
+      for (unsigned int i = 0; i < n * dim; ++i)
+        for (unsigned int j = 0; j < n * dim; ++j)
+          energy += 0.5 * relative[i] * matrix(i, j) * relative[j];
     }
   return energy;
 }
@@ -244,9 +282,8 @@ Bulk<dim>::ghost_energy(const Vector &u)
   if (gamma > 0.)
     for (const GhostFace &face : ghost_penalty.faces())
       {
-        const auto  &material = *bodies[fields.cells()[face.cell].body].material;
-        const auto   jumps    = ghost_penalty.matrix(face);
-        const double factor   = gamma * material.p_wave_modulus();
+        const auto   jumps  = ghost_penalty.matrix(face);
+        const double factor = ghost_stiffness(face);
         for (unsigned int d = 0; d < dim; ++d)
           {
             dealii::Vector<double> nodal(2 * n);

@@ -16,9 +16,19 @@ struct Bulk<dim>::CellIncrement
   const double                       *gradients; //!< unit: times gradient_scale, per node
   double                              gradient_scale;
   const double                       *volume_ratios; //!< J_n
-  std::vector<dealii::Tensor<2, dim>> increments;    //!< F_D
+  const double                       *mode_values;   //!< of VolumeModes, per point
+  const IncrementStart               *starts;
+  std::vector<dealii::Tensor<2, dim>> increments; //!< F_D
   std::vector<IncrementResponse<dim>> responses;
   std::vector<dealii::Tensor<4, dim>> tangents;
+
+  // Of projected volume changes.
+  bool                                            is_projected = false;
+  std::vector<typename VolumeChange<dim>::Stress> pulled;
+  /** P by the mode's volume, its force by F_D, its volume by F_D; without psi. */
+  std::vector<std::array<dealii::Tensor<2, dim>, 3>> volume_tensors;
+  /** Force of a mode by the volume of another one. */
+  std::array<std::array<double, VolumeModes<dim>::n_max>, VolumeModes<dim>::n_max> mode_stiffness;
 };
 
 namespace
@@ -72,9 +82,10 @@ template <typename Function>
 void
 Bulk<dim>::for_each_cell(const Vector &u, const bool with_tangents, const Function &f) const
 {
-  const unsigned int        n      = fields.basis.n_nodes;
-  const std::vector<double> values = values_by_cell(fields, u);
-  CellIncrement             cell;
+  const unsigned int             n      = fields.basis.n_nodes;
+  const std::vector<double>      values = values_by_cell(fields, u);
+  CellIncrement                  cell;
+  std::vector<VolumeChange<dim>> changes;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const CellRule points = rule(a);
@@ -83,7 +94,10 @@ Bulk<dim>::for_each_cell(const Vector &u, const bool with_tangents, const Functi
       cell.gradients
         = fields.cells()[a].is_cut ? &cut_gradients[first_gradient[a]] : whole_gradients.data();
       cell.gradient_scale = 1. / fields.grid.cells()[fields.cells()[a].grid_cell].size;
-      cell.volume_ratios  = &volume_ratios[first_point[a]];
+      cell.volume_ratios  = volume_ratios.data() + first_point[a];
+      cell.mode_values    = mode_values.data() + first_point[a] * VolumeModes<dim>::n_max;
+      cell.starts         = starts.data() + first_point[a];
+      cell.is_projected   = projected_shares[fields.cells()[a].body] > 0.;
       cell.weights.resize(points.n_points);
       cell.increments.resize(points.n_points);
       cell.responses.resize(points.n_points);
@@ -102,15 +116,140 @@ Bulk<dim>::for_each_cell(const Vector &u, const bool with_tangents, const Functi
             for (unsigned int j = 0; j < dim; ++j)
               cell.increments[q][i][j] = (i == j) + cell.gradient_scale * gradient[i][j];
         }
+      if (cell.is_projected)
+        project(cell, changes);
       bodies[fields.cells()[a].body].law->respond(
         dealii::make_array_view(cell.increments.begin(), cell.increments.end()),
-        dealii::ArrayView<const IncrementStart>(&starts[first_point[a]], points.n_points),
+        dealii::ArrayView<const IncrementStart>(cell.starts, points.n_points),
         dealii::make_array_view(cell.responses.begin(), cell.responses.end()),
         dealii::make_array_view(cell.tangents.begin(), cell.tangents.end()));
+      if (cell.is_projected)
+        pull_back(cell, changes);
       f(cell);
     }
 }
 
+template <int dim>
+void
+Bulk<dim>::project(CellIncrement &cell, std::vector<VolumeChange<dim>> &changes) const
+{
+  constexpr unsigned int n_max = VolumeModes<dim>::n_max;
+  const unsigned int     body  = fields.cells()[cell.active_cell].body;
+  const WorkOf           work  = bodies[body].law->work();
+  // Elastic laws: r gives the energy of lambda (projected tr eps)^2/2 + mu eps : eps.
+  const double              r      = (1. - std::sqrt(1. - projected_shares[body])) / dim;
+  std::array<double, n_max> values = {};
+  changes.clear();
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    {
+      changes.emplace_back(work, cell.increments[q], cell.starts[q]);
+      const double weight = cell.weights[q] / cell.starts[q].volume_ratio;
+      for (unsigned int m = 0; m < n_max; ++m)
+        values[m] += weight * cell.mode_values[q * n_max + m] * changes[q].value;
+    }
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    {
+      double value = 0.;
+      for (unsigned int m = 0; m < n_max; ++m)
+        value += cell.mode_values[q * n_max + m] * values[m];
+      cell.increments[q] = changes[q].project(value, r);
+    }
+}
+
+template <int dim>
+void
+Bulk<dim>::pull_back(CellIncrement &cell, const std::vector<VolumeChange<dim>> &changes) const
+{
+  constexpr unsigned int n_max         = VolumeModes<dim>::n_max;
+  const unsigned int     body          = fields.cells()[cell.active_cell].body;
+  const double           r             = (1. - std::sqrt(1. - projected_shares[body])) / dim;
+  const bool             with_tangents = !cell.tangents.empty();
+  // Force on each mode.
+  std::array<double, n_max> forces = {};
+  cell.mode_stiffness              = {};
+  cell.volume_tensors.resize(with_tangents ? cell.n_points : 0);
+  cell.pulled.resize(cell.n_points);
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    {
+      cell.pulled[q]  = changes[q].stress(cell.responses[q].piola);
+      const auto *psi = cell.mode_values + q * n_max;
+      for (unsigned int m = 0; m < n_max; ++m)
+        forces[m] += cell.weights[q] * r * cell.pulled[q].trace * psi[m] * changes[q].slope;
+    }
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    {
+      const auto &change = changes[q];
+      const auto &H      = change.H;
+      const auto *psi    = cell.mode_values + q * n_max;
+      double      force  = 0.;
+      for (unsigned int m = 0; m < n_max; ++m)
+        force += forces[m] * psi[m];
+      // per weight of the point
+      const double volume     = change.scale / cell.starts[q].volume_ratio;
+      cell.responses[q].piola = cell.pulled[q].piola + force * volume * H;
+      if (!with_tangents)
+        continue;
+      const auto tangent = change.tangent(cell.pulled[q], cell.tangents[q]);
+      cell.tangents[q]   = tangent.piola;
+      if (change.is_geometric())
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            for (unsigned int k = 0; k < dim; ++k)
+              for (unsigned int l = 0; l < dim; ++l)
+                cell.tangents[q][i][j][k][l]
+                  += force * volume * (H[i][j] * H[k][l] - H[i][l] * H[k][j]);
+      cell.volume_tensors[q]
+        = {change.slope * tangent.piola_by_volume, r * change.slope * tangent.trace, volume * H};
+      const double stiffness
+        = cell.weights[q] * r
+          * (tangent.trace_by_volume - (change.is_geometric() ? cell.pulled[q].trace : 0.))
+          * change.slope * change.slope;
+      for (unsigned int m = 0; m < n_max; ++m)
+        for (unsigned int p = 0; p < n_max; ++p)
+          cell.mode_stiffness[m][p] += stiffness * psi[m] * psi[p];
+    }
+}
+
+template <int dim>
+void
+Bulk<dim>::add_volume_couplings(const CellIncrement &cell, dealii::FullMatrix<double> &block) const
+{
+  constexpr unsigned int n_max   = VolumeModes<dim>::n_max;
+  const unsigned int     n       = fields.basis.n_nodes;
+  const unsigned int     n_modes = modes[cell.active_cell].n;
+  // Of each mode: the stress by its volume, the mode's force by F_D, its volume by F_D.
+  using Rows     = std::array<std::array<double, dim * max_nodes_per_cell<dim>>, n_max>;
+  Rows by_volume = {}, of_force = {}, of_volume = {};
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    {
+      const double *psi   = cell.mode_values + q * n_max;
+      const double *shape = cell.gradients + q * n * dim;
+      for (unsigned int i = 0; i < n * dim; ++i)
+        {
+          std::array<double, 3> sums = {};
+          for (unsigned int j = 0; j < dim; ++j)
+            for (unsigned int k = 0; k < 3; ++k)
+              sums[k] += cell.volume_tensors[q][k][i % dim][j] * shape[i / dim * dim + j];
+          for (unsigned int m = 0; m < n_modes; ++m)
+            {
+              const double weight = cell.weights[q] * cell.gradient_scale * psi[m];
+              by_volume[m][i] += weight * sums[0];
+              of_force[m][i] += weight * sums[1];
+              of_volume[m][i] += weight * sums[2];
+            }
+        }
+    }
+  for (unsigned int m = 0; m < n_modes; ++m)
+    {
+      std::array<double, dim * max_nodes_per_cell<dim>> row = of_force[m];
+      for (unsigned int p = 0; p < n_modes; ++p)
+        for (unsigned int i = 0; i < n * dim; ++i)
+          row[i] += cell.mode_stiffness[m][p] * of_volume[p][i];
+      for (unsigned int i = 0; i < n * dim; ++i)
+        for (unsigned int j = 0; j < n * dim; ++j)
+          block(i, j) += by_volume[m][i] * of_volume[m][j] + of_volume[m][i] * row[j];
+    }
+}
 template <int dim>
 void
 Bulk<dim>::add_internal_forces(const Vector &u, Vector &forces) const
@@ -175,6 +314,8 @@ Bulk<dim>::add_tangent(const Vector &u, dealii::TrilinosWrappers::SparseMatrix &
                   }
           }
       }
+    if (cell.is_projected)
+      add_volume_couplings(cell, block);
     fields.hanging_constraints().distribute_local_to_global(
       block, unknowns_of_nodes<dim>(fields.nodes(cell.active_cell), n), matrix);
   });
@@ -206,14 +347,17 @@ template <int dim>
 BulkSample<dim>
 Bulk<dim>::increment_sample(const PointInCell<dim>       &point,
                             const dealii::Tensor<1, dim> &displacement,
-                            const dealii::Tensor<2, dim> &gradient) const
+                            const dealii::Tensor<2, dim> &gradient, const Vector &u) const
 {
   const auto &law     = *bodies[fields.cells()[point.active_cell].body].law;
   const auto  history = start->histories({point}).front();
 
-  std::vector<dealii::Tensor<2, dim>> increment
-    = {gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>())};
+  const dealii::Tensor<2, dim> F_D
+    = gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
   const std::vector<IncrementStart>   at_start = {law.start(history)};
+  std::vector<dealii::Tensor<2, dim>> increment
+    = {projected_increment(point.active_cell, point.unit_point,
+                           cell_volume(point.active_cell, u, false), F_D, at_start.front())};
   std::vector<IncrementResponse<dim>> response(1);
   std::vector<dealii::Tensor<4, dim>> no_tangent;
   law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(increment.data(), 1),
@@ -223,7 +367,7 @@ Bulk<dim>::increment_sample(const PointInCell<dim>       &point,
   BulkSample<dim> result;
   result.displacement = start->deformation(point).displacement + displacement;
   // Green's strain
-  const dealii::Tensor<2, dim> F = increment[0] * history.deformation_gradient;
+  const dealii::Tensor<2, dim> F = F_D * history.deformation_gradient;
   result.strain = 0.5 * (symmetrize(transpose(F) * F) - dealii::unit_symmetric_tensor<dim>());
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
@@ -233,15 +377,15 @@ Bulk<dim>::increment_sample(const PointInCell<dim>       &point,
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template void Bulk<dim>::set_up_increments();                                                  \
-  template void Bulk<dim>::add_internal_forces(const Vector &, Vector &) const;                  \
-  template void Bulk<dim>::add_tangent(const Vector &, dealii::TrilinosWrappers::SparseMatrix &) \
-    const;                                                                                       \
-  template typename Bulk<dim>::Work Bulk<dim>::work(const Vector &) const;                       \
-  template BulkSample<dim>          Bulk<dim>::increment_sample(const PointInCell<dim> &,        \
-                                                                const dealii::Tensor<1, dim> &,  \
-                                                                const dealii::Tensor<2, dim> &) const;
+#define SCREE_INSTANTIATE(dim)                                                                         \
+  template void Bulk<dim>::set_up_increments();                                                        \
+  template void Bulk<dim>::add_internal_forces(const Vector &, Vector &) const;                        \
+  template void Bulk<dim>::add_tangent(const Vector &, dealii::TrilinosWrappers::SparseMatrix &)       \
+    const;                                                                                             \
+  template typename Bulk<dim>::Work Bulk<dim>::work(const Vector &) const;                             \
+  template BulkSample<dim>          Bulk<dim>::increment_sample(                                       \
+             const PointInCell<dim> &, const dealii::Tensor<1, dim> &, const dealii::Tensor<2, dim> &, \
+             const Vector &) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

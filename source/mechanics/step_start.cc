@@ -1,5 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/log.h>
+#include <scree/material/increment_response.h>
+#include <scree/material/logarithmic_strain.h>
 #include <scree/mechanics/step_start.h>
 #include <scree/points/migration.h>
 #include <scree/points/splitting.h>
@@ -12,6 +14,102 @@
 
 namespace scree
 {
+namespace
+{
+template <int dim>
+bool
+has_plastic_strain(const Body<dim> &body)
+{
+  return !body.is_rigid()
+         && (body.law->internal() == InternalTensor::plastic_metric
+             || body.law->internal() == InternalTensor::plastic_strain);
+}
+
+/** dev sym(F - I). */
+template <int dim>
+dealii::SymmetricTensor<2, 3>
+deviatoric_strain(const dealii::Tensor<2, dim> &F)
+{
+  return deviator(symmetrize(embed<dim>(F)));
+}
+
+/** dev ln m. */
+dealii::SymmetricTensor<2, 3>
+deviatoric_logarithm(const dealii::Tensor<2, 3> &m)
+{
+  return deviator(
+    dealii::SymmetricTensor<2, 3>(symmetrize(2. * LogarithmicStrain(eigensystem(m)).value())));
+}
+
+/** Deviator of the elastic strain: of ln b_e, b_e = F C_p^{-1} F^T, or of eps - eps_p. */
+template <int dim>
+dealii::SymmetricTensor<2, 3>
+elastic_strain(const IncrementLaw<dim> &law, const PointHistory<dim> &history)
+{
+  if (law.internal() == InternalTensor::plastic_strain)
+    return deviatoric_strain<dim>(history.deformation_gradient) - history.internal;
+  return deviatoric_logarithm(law.start(history).tensor);
+}
+
+/** The internal tensor that leads to that elastic strain. */
+template <int dim>
+dealii::SymmetricTensor<2, 3>
+internal_of(const IncrementLaw<dim> &law, const dealii::SymmetricTensor<2, 3> &elastic,
+            const dealii::Tensor<2, dim> &F)
+{
+  if (law.internal() == InternalTensor::plastic_strain)
+    return deviatoric_strain<dim>(F) - elastic;
+  const dealii::Tensor<2, 3> inverse = invert(embed<dim>(F));
+  return deviatoric_logarithm(inverse * exponential(dealii::Tensor<2, 3>(elastic))
+                              * transpose(inverse));
+}
+
+/** A deviator as the points carry it: in two dimensions without the third row, and back. */
+template <int dim>
+dealii::SymmetricTensor<2, dim>
+reduced(const dealii::SymmetricTensor<2, 3> &deviatoric)
+{
+  dealii::SymmetricTensor<2, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result[i][j] = deviatoric[i][j];
+  return result;
+}
+
+template <int dim>
+dealii::SymmetricTensor<2, 3>
+completed(const dealii::SymmetricTensor<2, dim> &tensor)
+{
+  dealii::SymmetricTensor<2, 3> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result[i][j] = tensor[i][j];
+  if (dim == 2)
+    result[2][2] = -trace(tensor);
+  return result;
+}
+
+/**
+ * Where the material flowed, plastic strains follow the deformation gradient at the point: what
+ * moving least squares carry is the elastic strain, with a share of one less the secant ratio.
+ * Plastic strains smoothed without F, which jumps from cell to cell, would make the material flow
+ * once more.
+ */
+template <int dim>
+void
+set_plastic_strains(const Body<dim> &body, const dealii::SymmetricTensor<2, dim> &elastic,
+                    PointHistory<dim> &history)
+{
+  if (!has_plastic_strain(body) || history.alpha <= 0.)
+    return;
+  const double share = body.law->secant_ratio(history.alpha);
+  history.internal
+    = share * history.internal
+      + (1. - share)
+          * internal_of<dim>(*body.law, completed<dim>(elastic), history.deformation_gradient);
+}
+} // namespace
+
 template <int dim>
 void
 store_internal(const PointHistory<dim> &history, double *internal)
@@ -69,8 +167,14 @@ template <int dim>
 void
 StepStart<dim>::collect_neighbours()
 {
-  cloud               = own_points;
-  const MPI_Comm comm = fields.grid.communicator();
+  // The stresses of points are not needed here: the cloud has elastic strains in their place.
+  cloud = own_points;
+  for (std::size_t p = 0; p < own_points.size(); ++p)
+    if (has_plastic_strain(bodies[own_points.body[p]]))
+      cloud.stress[p] = reduced<dim>(
+        elastic_strain<dim>(*bodies[own_points.body[p]].law, history_of_material_point(p)));
+  const MaterialPoints<dim> sent = cloud;
+  const MPI_Comm            comm = fields.grid.communicator();
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
     return;
   // A radius that has grown six times by 1.25 is 3.8 times the first one.
@@ -81,7 +185,7 @@ StepStart<dim>::collect_neighbours()
     largest_size = std::max(largest_size, own_points.spacing(p));
   const double reach  = 4. * parameters.support * dealii::Utilities::MPI::max(largest_size, comm);
   const auto   others = neighbours_from_others<dim>(
-    own_points,
+    sent,
     [&](const dealii::Point<dim> &x) {
       // The processes of a lattice of probes as fine as the cells are.
       const int              n = static_cast<int>(std::ceil(reach / fields.grid.finest_size()));
@@ -201,7 +305,11 @@ StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
         {
           const auto internal = transfer.values(cloud.internal, n_internal);
           for (std::size_t i = 0; i < points.size(); ++i)
-            load_internal(&internal[i * n_internal], result[i]);
+            {
+              load_internal(&internal[i * n_internal], result[i]);
+              set_plastic_strains(bodies[fields.cells()[points[i].active_cell].body],
+                                  transfer.value(cloud.stress, i), result[i]);
+            }
         }
     }
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -54,7 +54,7 @@ struct EquilibriumModel
       , cut(input.bodies, communicator)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies)
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)

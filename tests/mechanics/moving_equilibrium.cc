@@ -34,7 +34,7 @@ struct StartedStep
       , points(moved(law, displacement))
       , start(*cut.fields, cut.bodies, points, parameters)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, &start)
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/material/isotropic.h>
 #include <scree/material/material.h>
 
 #include <deal.II/base/array_view.h>
@@ -78,6 +79,14 @@ enum class InternalTensor
   cauchy_stress   // sigma
 };
 
+/** On which configuration the stress of a law does its work. */
+enum class WorkOf
+{
+  current,   // tau : grad_x v, on the end of the step: geometric terms
+  start,     // sigma : grad v on Omega_n
+  reference, // sigma : grad_X v on Omega_0
+};
+
 /**
  * A constitutive law in increments: with the deformation gradient `F_D = I + grad du` of a step
  * on the configuration `Omega_n` at its start, and the history at that start, the stress `P` with
@@ -101,10 +110,28 @@ template <int dim>
 class IncrementLaw
 {
 public:
+  /** @param hardening its yield stress is infinite if the law is elastic */
+  IncrementLaw(const IsotropicModuli &moduli, const Hardening &hardening);
+
   virtual ~IncrementLaw() = default;
 
   /** What the internal tensor of a point is. */
   virtual InternalTensor internal() const = 0;
+
+  /** On which configuration its stress works. */
+  virtual WorkOf work() const = 0;
+
+  /**
+   * The share of the volumetric stiffness that acts on projected volume changes: all of it if the
+   * law flows, the part of lambda, lambda/(lambda + 2 mu/dim), if it is elastic; never negative.
+   */
+  double projected_share() const;
+
+  /**
+   * Secant shear modulus of proportional loading to the equivalent plastic strain alpha over mu,
+   * e/(e + alpha) with the elastic strain e = (sigma_y + H alpha)/(3 mu); 1 without yield stress.
+   */
+  double secant_ratio(const double alpha) const;
 
   /**
    * The start of a step from interpolated or carried history; needed once per step and point.
@@ -138,6 +165,10 @@ public:
                        const dealii::ArrayView<const IncrementStart>         &starts,
                        const dealii::ArrayView<IncrementResponse<dim>>       &responses,
                        const dealii::ArrayView<dealii::Tensor<4, dim>>       &tangents) const = 0;
+
+private:
+  IsotropicModuli moduli;
+  Hardening       hardening;
 };
 
 /** Names of the laws that make_increment_law() knows. */

@@ -16,14 +16,6 @@ struct KirchhoffStress
   double               dissipation = 0;
 };
 
-/** On which configuration the stress of a law does its work. */
-enum class WorkOf
-{
-  current,   // tau : grad_x v, on the end of the step: geometric terms
-  start,     // sigma : grad v on Omega_n
-  reference, // sigma : grad_X v on Omega_0
-};
-
 /** A deformation gradient with three rows: in plane strain the out-of-plane stretch is 1. */
 template <int dim>
 dealii::Tensor<2, 3>
@@ -154,14 +146,20 @@ template <int dim, class Law>
 class IncrementLawOf : public IncrementLaw<dim>
 {
 public:
-  explicit IncrementLawOf(const Law &law)
-      : law(law)
+  IncrementLawOf(const Law &law, const IsotropicModuli &moduli, const Hardening &hardening)
+      : IncrementLaw<dim>(moduli, hardening)
+      , law(law)
   {
   }
 
   InternalTensor internal() const override
   {
     return Law::internal;
+  }
+
+  WorkOf work() const override
+  {
+    return Law::Point::work;
   }
 
   void respond(const dealii::ArrayView<const dealii::Tensor<2, dim>> &increments,

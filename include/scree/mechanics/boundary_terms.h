@@ -24,12 +24,12 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /**
-   * @param start of the step on a moving geometry; null: the geometry is fixed
+   * @param bulk of these bodies: stresses see its projected volume changes
    * @throws UserError if a region selects nothing
    */
   BoundaryTerms(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                const StepStart<dim> *start = nullptr);
+                const Bulk<dim> &bulk);
 
   /** Number of multipliers that the mean supports of the bodies need. */
   static unsigned int n_multipliers(const std::vector<Body<dim>> &bodies);
@@ -80,10 +80,38 @@ public:
   /** Energy stored in springs, Nitsche and penalty terms over all processes. */
   double energy(const Vector &u, const double time) const;
 
-  /** beta = factor k^2 (2 mu + lambda)/h of Nitsche and penalty at a point. */
+  /**
+   * beta = factor k^2 (2 mu + lambda)/h of penalty at a point; of Nitsche with rho (2 mu +
+   * min(lambda, 4 mu)), rho the secant ratio of plastic flow, at least 0.1. The rest of 2 mu +
+   * lambda acts on the moments of the normal displacement over the cell, as its pressure does: held
+   * point by point, a curved surface would lock what keeps its volume.
+   */
   double beta(const BoundaryRegion<dim> &region, const unsigned int q) const;
 
 private:
+  // Moments of the normal displacement, boundary_moments.cc.
+  struct NormalMoments
+  {
+    unsigned int     region, begin, end; //!< points of one cell
+    double           stiffness;
+    VolumeModes<dim> modes;
+  };
+  /** Of Nitsche's moduli in a cell that flows. */
+  double flow_ratio(const unsigned int active_cell) const;
+  /** Share of beta that acts at points. */
+  double pointwise_share(const BoundaryRegion<dim> &region, const unsigned int q) const;
+  void   find_moments();
+  /** Coefficients of moment m by the unknowns of the cell. */
+  std::vector<double> moment_row(const NormalMoments &moments, const unsigned int m) const;
+  /** int psi_m n.(ubar - u_n) over the prescribed components. */
+  double prescribed_moment(const NormalMoments &moments, const unsigned int m,
+                           const double time) const;
+  void   add_moments_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+  void   add_moment_loads(Vector &loads, const double time) const;
+  /** What the moments add to the traction at a point. */
+  dealii::Tensor<1, dim> moment_traction(const BoundaryRegion<dim> &region, const unsigned int q,
+                                         const Vector &u, const double time) const;
+
   /** Whether the condition has a term that is not linear. */
   bool is_nonlinear(const BoundaryRegion<dim> &region) const;
   /** The law's answer to the increment u at a point, F_D and unit gradients; boundary_increment.cc.
@@ -115,7 +143,10 @@ private:
   const Fields<dim>                       &fields;
   const std::vector<Body<dim>>            &bodies;
   std::vector<BoundaryRegion<dim>>         boundary_regions;
+  const Bulk<dim>                         &bulk;
   const StepStart<dim>                    *start;
   std::vector<std::vector<IncrementStart>> starts; //!< of the points of nonlinear regions
+  std::vector<NormalMoments>               normal_moments;
+  std::vector<std::vector<int>>            moments_of_point; //!< [region][q], -1: none
 };
 } // namespace scree

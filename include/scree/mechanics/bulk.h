@@ -3,11 +3,13 @@
 #include <scree/discretization/cut_quadrature.h>
 #include <scree/discretization/ghost_penalty.h>
 #include <scree/mechanics/step_start.h>
+#include <scree/mechanics/volume_projection.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <array>
 #include <vector>
 
 namespace scree
@@ -24,7 +26,9 @@ struct BulkSample
 
 /**
  * The bulk on cut cells: int sigma(u) : grad v over the physical part, plus the ghost penalty
- * gamma (2 mu + lambda) s_h(u, v) (method.md section 7).
+ * gamma (2 mu + min(lambda, 4 mu)) rho s_h(u, v) (method.md section 7), rho the squared
+ * secant ratio of plastic flow, at least 1e-3. The volume change that the materials see is
+ * projected on VolumeModes of each cell.
  *
  * On a fixed geometry it is linear elastic in the total displacement u. On a moving one u is the
  * increment since the start of the step and the laws in increments give int P(F_D) : grad v over
@@ -69,6 +73,50 @@ public:
     return start;
   }
 
+  /**
+   * The projected divergence of the displacement at a point: its coefficients of the unknowns of
+   * the cell, component by component of node after node. False, and nothing, if the body's is not
+   * projected.
+   */
+  bool projected_divergence(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                            std::vector<double> &coefficients) const;
+
+  /** Of a cell at the ghosted increment u: sum_m psi_m values[m] is the projected VolumeChange. */
+  struct CellVolume
+  {
+    bool                                        is_projected = false;
+    std::array<double, VolumeModes<dim>::n_max> values       = {};
+    /** Their derivatives by the unknowns of the cell. */
+    std::array<std::vector<double>, VolumeModes<dim>::n_max> derivatives;
+  };
+  CellVolume cell_volume(const unsigned int active_cell, const Vector &u,
+                         const bool with_derivatives) const;
+
+  /** Of all active cells, without derivatives. */
+  std::vector<CellVolume> cell_volumes(const Vector &u) const;
+
+  /** What the law sees at a point of the cell instead of the increment F_D. */
+  dealii::Tensor<2, dim> projected_increment(const unsigned int            active_cell,
+                                             const dealii::Point<dim>     &unit_point,
+                                             const CellVolume             &volume,
+                                             const dealii::Tensor<2, dim> &F_D,
+                                             const IncrementStart         &start) const;
+  /** The same, and how it depends on F_D; only where volume.is_projected. */
+  VolumeChange<dim>       volume_change(const unsigned int        active_cell,
+                                        const dealii::Point<dim> &unit_point, const CellVolume &volume,
+                                        const dealii::Tensor<2, dim> &F_D, const IncrementStart &start,
+                                        dealii::Tensor<2, dim> &projected) const;
+  const VolumeModes<dim> &volume_modes(const unsigned int active_cell) const
+  {
+    return modes[active_cell];
+  }
+
+  /** Secant over elastic shear modulus at the start of the step, in an active cell. */
+  double secant_ratio(const unsigned int active_cell) const
+  {
+    return secant_ratios[active_cell];
+  }
+
   /** Which nodes couple, cell by cell and ghost face by ghost face. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
@@ -106,10 +154,25 @@ private:
   void            for_each_cell(const Vector &u, const bool with_tangents, const Function &f) const;
   BulkSample<dim> increment_sample(const PointInCell<dim>       &point,
                                    const dealii::Tensor<1, dim> &displacement,
-                                   const dealii::Tensor<2, dim> &gradient) const;
+                                   const dealii::Tensor<2, dim> &gradient, const Vector &u) const;
   double          linear_strain_energy(const Vector &u) const;
 
   void cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const;
+
+  // Projected volume changes, bulk_volume.cc.
+  void set_up_volume_rows();
+  /** Adds lambda int (projected div u) (projected div v). */
+  void add_projected_stiffness(const unsigned int active_cell, const double lambda,
+                               dealii::FullMatrix<double> &matrix) const;
+  void set_up_increment_modes();
+  /** Of the face, instead of gamma (2 mu + lambda). */
+  double ghost_stiffness(const GhostFace &face) const;
+  void   find_secant_ratios();
+  /** Replaces the increments of a cell by projected ones. */
+  void project(CellIncrement &cell, std::vector<VolumeChange<dim>> &changes) const;
+  /** Turns the law's answers to projected increments into derivatives by the increments. */
+  void pull_back(CellIncrement &cell, const std::vector<VolumeChange<dim>> &changes) const;
+  void add_volume_couplings(const CellIncrement &cell, dealii::FullMatrix<double> &block) const;
 
   const Fields<dim>            &fields;
   const CutQuadrature<dim>     &quadrature;
@@ -124,5 +187,14 @@ private:
   std::vector<double>         cut_gradients;   //!< of the basis at points of cut cells
   std::vector<std::size_t>    first_gradient;  //!< of each owned cell
   std::vector<double>         whole_gradients; //!< of the basis for unit edge
+
+  /** int f_j div u of cut active cells, as far as projected on the functions of VolumeModes. */
+  std::vector<double>           volume_rows;
+  std::vector<std::size_t>      first_row;         //!< of each active cell
+  std::vector<double>           whole_volume_rows; //!< of whole cells of unit edge
+  std::vector<double>           projected_shares;  //!< of bodies
+  std::vector<VolumeModes<dim>> modes;             //!< of owned cells on a moving geometry
+  std::vector<double>           mode_values;       //!< n_max at each point
+  std::vector<double>           secant_ratios;     //!< of active cells
 };
 } // namespace scree

@@ -1,0 +1,189 @@
+#include <scree/mechanics/boundary_terms.h>
+
+#include <algorithm>
+
+// Prescribed displacements of bodies that keep their volume: Nitsche's penalty on the moments of
+// the normal displacement over the surface in each cell.
+namespace scree
+{
+template <int dim>
+double
+BoundaryTerms<dim>::flow_ratio(const unsigned int active_cell) const
+{
+  constexpr double smallest = 0.02;
+  return std::max(smallest, bulk.secant_ratio(active_cell));
+}
+
+template <int dim>
+double
+BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const unsigned int q) const
+{
+  if (region.condition->parameters.method == DisplacementMethod::penalty)
+    return 1.;
+  const auto  &material = *bodies[region.body].material;
+  const double mu       = material.shear_modulus();
+  return flow_ratio(region.points[q].active_cell)
+         * (2. * mu + std::min(material.lame_lambda(), largest_penalty_lambda * mu))
+         / material.p_wave_modulus();
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::find_moments()
+{
+  std::vector<dealii::Point<dim>> points;
+  std::vector<double>             weights;
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+    {
+      const auto &region = boundary_regions[r];
+      moments_of_point.emplace_back(region.points.size(), -1);
+      if (region.condition->parameters.type != ConditionType::displacement)
+        continue;
+      for (unsigned int begin = 0, end = 0; begin < region.points.size(); begin = end)
+        {
+          const unsigned int cell = region.points[begin].active_cell;
+          points.clear();
+          weights.clear();
+          for (; end < region.points.size() && region.points[end].active_cell == cell; ++end)
+            {
+              points.push_back(region.points[end].unit_point);
+              weights.push_back(region.points[end].weight);
+            }
+          const double share = pointwise_share(region, begin);
+          if (share >= 1.)
+            continue;
+          std::fill(moments_of_point[r].begin() + begin, moments_of_point[r].begin() + end,
+                    normal_moments.size());
+          normal_moments.push_back({r, begin, end, beta(region, begin) / share * (1. - share),
+                                    VolumeModes<dim>(points.data(), weights.data(), points.size(),
+                                                     fields.basis.degree - 1)});
+        }
+    }
+}
+
+template <int dim>
+std::vector<double>
+BoundaryTerms<dim>::moment_row(const NormalMoments &moments, const unsigned int m) const
+{
+  const auto         &region = boundary_regions[moments.region];
+  const unsigned int  n      = fields.basis.n_nodes;
+  std::vector<double> row(n * dim, 0.), shape(n);
+  for (unsigned int q = moments.begin; q < moments.end; ++q)
+    {
+      const auto &point = region.points[q];
+      fields.basis.evaluate_values(point.unit_point, shape.data());
+      const double weight = point.weight * moments.modes(point.unit_point)[m];
+      for (const unsigned int c : region.condition->components)
+        for (unsigned int a = 0; a < n; ++a)
+          row[a * dim + c] += weight * point.normal[c] * shape[a];
+    }
+  return row;
+}
+
+template <int dim>
+double
+BoundaryTerms<dim>::prescribed_moment(const NormalMoments &moments, const unsigned int m,
+                                      const double time) const
+{
+  const auto &region = boundary_regions[moments.region];
+  double      sum    = 0.;
+  for (unsigned int q = moments.begin; q < moments.end; ++q)
+    {
+      const auto  &point  = region.points[q];
+      const double weight = point.weight * moments.modes(point.unit_point)[m];
+      for (unsigned int k = 0; k < region.condition->components.size(); ++k)
+        {
+          const unsigned int c = region.condition->components[k];
+          sum += weight * point.normal[c]
+                 * (region.condition->value(k, point.reference_position, time)
+                    - point.start_displacement[c]);
+        }
+    }
+  return sum;
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_moments_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+{
+  const unsigned int         n = fields.basis.n_nodes * dim;
+  dealii::FullMatrix<double> block(n, n);
+  for (const NormalMoments &moments : normal_moments)
+    {
+      block = 0.;
+      for (unsigned int m = 0; m < moments.modes.n; ++m)
+        {
+          const auto row = moment_row(moments, m);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              block(i, j) += moments.stiffness * row[i] * row[j];
+        }
+      const unsigned int cell = boundary_regions[moments.region].points[moments.begin].active_cell;
+      fields.hanging_constraints().distribute_local_to_global(
+        block, unknowns_of_nodes<dim>(fields.nodes(cell), fields.basis.n_nodes), matrix);
+    }
+}
+
+template <int dim>
+void
+BoundaryTerms<dim>::add_moment_loads(Vector &loads, const double time) const
+{
+  const unsigned int     n = fields.basis.n_nodes * dim;
+  dealii::Vector<double> load(n);
+  for (const NormalMoments &moments : normal_moments)
+    {
+      load = 0.;
+      for (unsigned int m = 0; m < moments.modes.n; ++m)
+        {
+          const auto   row   = moment_row(moments, m);
+          const double value = moments.stiffness * prescribed_moment(moments, m, time);
+          for (unsigned int i = 0; i < n; ++i)
+            load(i) += value * row[i];
+        }
+      const unsigned int cell = boundary_regions[moments.region].points[moments.begin].active_cell;
+      fields.hanging_constraints().distribute_local_to_global(
+        load, unknowns_of_nodes<dim>(fields.nodes(cell), fields.basis.n_nodes), loads);
+    }
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+BoundaryTerms<dim>::moment_traction(const BoundaryRegion<dim> &region, const unsigned int q,
+                                    const Vector &u, const double time) const
+{
+  dealii::Tensor<1, dim> traction;
+  const int              index = moments_of_point[&region - boundary_regions.data()][q];
+  if (index < 0)
+    return traction;
+  const NormalMoments &moments = normal_moments[index];
+  const auto          &point   = region.points[q];
+  const DofIndex      *nodes   = fields.nodes(point.active_cell);
+  const auto           psi     = moments.modes(point.unit_point);
+  double               density = 0.;
+  for (unsigned int m = 0; m < moments.modes.n; ++m)
+    {
+      const auto row    = moment_row(moments, m);
+      double     moment = -prescribed_moment(moments, m, time);
+      for (unsigned int i = 0; i < row.size(); ++i)
+        moment += row[i] * u(nodes[i / dim] + i % dim);
+      density += moments.stiffness * psi[m] * moment;
+    }
+  for (const unsigned int c : region.condition->components)
+    traction[c] = -density * point.normal[c];
+  return traction;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                      \
+  template double BoundaryTerms<dim>::flow_ratio(const unsigned int) const;         \
+  template double BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &,  \
+                                                      const unsigned int) const;    \
+  template void   BoundaryTerms<dim>::find_moments();                               \
+  template void   BoundaryTerms<dim>::add_moments_to_matrix(                        \
+      dealii::TrilinosWrappers::SparseMatrix &) const;                              \
+  template void BoundaryTerms<dim>::add_moment_loads(Vector &, const double) const; \
+  template dealii::Tensor<1, dim> BoundaryTerms<dim>::moment_traction(              \
+    const BoundaryRegion<dim> &, const unsigned int, const Vector &, const double) const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,321 @@
+#include <scree/mechanics/bulk.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Projected volume changes of the bulk, and the stiffness of the ghost penalty.
+namespace scree
+{
+namespace
+{
+/** Bodies that flow keep this part of the ghost penalty, for the condition number. */
+constexpr double smallest_ratio = 1e-3;
+
+/** f_j: 1, x_1 - 1/2, ... */
+template <int dim>
+double
+function(const unsigned int j, const dealii::Point<dim> &unit_point)
+{
+  return j == 0 ? 1. : unit_point[j - 1] - 0.5;
+}
+
+/** Sends a list of numbers of every active cell of the owners to their ghosts. */
+template <int dim>
+void
+exchange_to_ghosts(const Fields<dim> &fields, std::vector<std::vector<double>> &of_cells)
+{
+  using Content = std::vector<std::pair<unsigned int, std::vector<double>>>;
+  std::vector<Content> of_grid_cell(fields.grid.cells().size());
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    of_grid_cell[fields.cells()[a].grid_cell].emplace_back(fields.cells()[a].body, of_cells[a]);
+  dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
+    fields.grid.triangulation(),
+    [&](const auto &cell) -> dealii::std_cxx17::optional<Content> {
+      return of_grid_cell[fields.grid.local_index(*cell)];
+    },
+    [&](const auto &cell, const Content &content) {
+      for (const auto &[body, numbers] : content)
+        {
+          const int a = fields.active_cell(fields.grid.local_index(*cell), body);
+          if (a >= 0)
+            of_cells[a] = numbers;
+        }
+    });
+}
+
+/** int f_j d_i N_a projected: sum_m c_mj int psi_m d_i N_a, j after j. */
+template <int dim>
+std::vector<double>
+volume_rows_of(const LagrangeBasis<dim> &basis, const VolumeModes<dim> &modes,
+               const dealii::Point<dim> *points, const double *weights, const unsigned int n_points,
+               const double gradient_scale)
+{
+  const unsigned int  n_unknowns = basis.n_nodes * dim;
+  std::vector<double> integrals(modes.n * n_unknowns, 0.);
+  ShapeValues<dim>    shape;
+  for (unsigned int q = 0; q < n_points; ++q)
+    {
+      basis.evaluate(points[q], shape);
+      const auto psi = modes(points[q]);
+      for (unsigned int m = 0; m < modes.n; ++m)
+        for (unsigned int i = 0; i < n_unknowns; ++i)
+          integrals[m * n_unknowns + i]
+            += weights[q] * gradient_scale * psi[m] * shape.gradient[i / dim][i % dim];
+    }
+  std::vector<double> rows(VolumeModes<dim>::n_max * n_unknowns, 0.);
+  for (unsigned int m = 0; m < modes.n; ++m)
+    for (unsigned int j = 0; j < VolumeModes<dim>::n_max; ++j)
+      for (unsigned int i = 0; i < n_unknowns; ++i)
+        rows[j * n_unknowns + i] += modes.coefficients[m][j] * integrals[m * n_unknowns + i];
+  return rows;
+}
+} // namespace
+
+template <int dim>
+void
+Bulk<dim>::set_up_volume_rows()
+{
+  if (std::all_of(projected_shares.begin(), projected_shares.end(),
+                  [](const double share) { return share == 0.; }))
+    return;
+  const unsigned int degree = fields.basis.degree - 1;
+  const auto        &whole  = quadrature.whole_cell;
+  whole_volume_rows         = volume_rows_of(
+            fields.basis,
+            VolumeModes<dim>(whole.points.data(), whole.weights.data(), whole.points.size(), degree),
+            whole.points.data(), whole.weights.data(), whole.points.size(), 1.);
+  std::vector<std::vector<double>> rows(fields.cells().size());
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    if (fields.cells()[a].is_cut && projected_shares[fields.cells()[a].body] > 0.)
+      {
+        const CellRule cell = rule(a);
+        rows[a]             = volume_rows_of(fields.basis,
+                                             VolumeModes<dim>(cell.points, cell.weights, cell.n_points, degree),
+                                             cell.points, cell.weights, cell.n_points,
+                                             1. / fields.grid.cells()[fields.cells()[a].grid_cell].size);
+      }
+  exchange_to_ghosts(fields, rows);
+  for (const auto &row : rows)
+    {
+      first_row.push_back(volume_rows.size());
+      volume_rows.insert(volume_rows.end(), row.begin(), row.end());
+    }
+}
+
+template <int dim>
+bool
+Bulk<dim>::projected_divergence(const unsigned int        active_cell,
+                                const dealii::Point<dim> &unit_point,
+                                std::vector<double>      &coefficients) const
+{
+  const ActiveCell &cell = fields.cells()[active_cell];
+  coefficients.clear();
+  if (projected_shares[cell.body] == 0.)
+    return false;
+  const unsigned int n_unknowns = fields.basis.n_nodes * dim;
+  const double      *rows
+    = cell.is_cut ? &volume_rows[first_row[active_cell]] : whole_volume_rows.data();
+  const double scale = cell.is_cut ? 1. : 1. / fields.grid.cells()[cell.grid_cell].size;
+  coefficients.assign(n_unknowns, 0.);
+  for (unsigned int j = 0; j < VolumeModes<dim>::n_max; ++j)
+    {
+      const double f = scale * function(j, unit_point);
+      for (unsigned int i = 0; i < n_unknowns; ++i)
+        coefficients[i] += f * rows[j * n_unknowns + i];
+    }
+  return true;
+}
+
+template <int dim>
+void
+Bulk<dim>::add_projected_stiffness(const unsigned int active_cell, const double lambda,
+                                   dealii::FullMatrix<double> &matrix) const
+{
+  const CellRule     points = rule(active_cell);
+  const unsigned int n      = fields.basis.n_nodes * dim;
+  const double       scale  = 1. / fields.grid.cells()[fields.cells()[active_cell].grid_cell].size;
+  const VolumeModes<dim> psi(points.points, points.weights, points.n_points,
+                             fields.basis.degree - 1);
+  std::array<std::array<double, dim * max_nodes_per_cell<dim>>, VolumeModes<dim>::n_max> integrals
+    = {};
+  ShapeValues<dim> shape;
+  for (unsigned int q = 0; q < points.n_points; ++q)
+    {
+      fields.basis.evaluate(points.points[q], shape);
+      const auto values = psi(points.points[q]);
+      for (unsigned int m = 0; m < psi.n; ++m)
+        for (unsigned int i = 0; i < n; ++i)
+          integrals[m][i]
+            += points.weights[q] * scale * values[m] * shape.gradient[i / dim][i % dim];
+    }
+  for (unsigned int m = 0; m < psi.n; ++m)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) += lambda * points.weight_scale * integrals[m][i] * integrals[m][j];
+}
+
+template <int dim>
+double
+Bulk<dim>::ghost_stiffness(const GhostFace &face) const
+{
+  const auto  &material = *bodies[fields.cells()[face.cell].body].material;
+  const double mu       = material.shear_modulus();
+  const double secant   = std::min(secant_ratios[face.cell], secant_ratios[face.neighbor]);
+  return gamma * (2. * mu + std::min(material.lame_lambda(), largest_penalty_lambda * mu))
+         * std::max(smallest_ratio, secant * secant);
+}
+
+template <int dim>
+void
+Bulk<dim>::find_secant_ratios()
+{
+  std::vector<std::vector<double>> of_cells(fields.cells().size(), {1.});
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule points = rule(a);
+      double         volume = 0., alpha = 0.;
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        {
+          volume += points.weights[q];
+          alpha += points.weights[q] * starts[first_point[a] + q].alpha;
+        }
+      if (alpha > 0.)
+        of_cells[a] = {bodies[fields.cells()[a].body].law->secant_ratio(alpha / volume)};
+    }
+  exchange_to_ghosts(fields, of_cells);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    secant_ratios[a] = of_cells[a].front();
+}
+
+template <int dim>
+void
+Bulk<dim>::set_up_increment_modes()
+{
+  constexpr unsigned int n_max = VolumeModes<dim>::n_max;
+  std::vector<double>    weights;
+  mode_values.reserve(starts.size() * n_max);
+  modes.reserve(fields.n_owned_cells());
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule points = rule(a);
+      weights.resize(points.n_points);
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        weights[q]
+          = points.weights[q] * points.weight_scale / starts[first_point[a] + q].volume_ratio;
+      modes.emplace_back(points.points, weights.data(), points.n_points, fields.basis.degree - 1);
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        for (const double value : modes.back()(points.points[q]))
+          mode_values.push_back(value);
+    }
+}
+
+template <int dim>
+typename Bulk<dim>::CellVolume
+Bulk<dim>::cell_volume(const unsigned int active_cell, const Vector &u,
+                       const bool with_derivatives) const
+{
+  CellVolume        result;
+  const ActiveCell &cell = fields.cells()[active_cell];
+  if (active_cell >= fields.n_owned_cells() || projected_shares[cell.body] == 0.)
+    return result;
+  result.is_projected           = true;
+  const unsigned int     n      = fields.basis.n_nodes;
+  constexpr unsigned int n_max  = VolumeModes<dim>::n_max;
+  const CellRule         points = rule(active_cell);
+  const double           scale  = 1. / fields.grid.cells()[cell.grid_cell].size;
+  const double          *shape
+    = cell.is_cut ? &cut_gradients[first_gradient[active_cell]] : whole_gradients.data();
+  const DofIndex *nodes = fields.nodes(active_cell);
+  if (with_derivatives)
+    for (auto &derivative : result.derivatives)
+      derivative.assign(n * dim, 0.);
+  for (unsigned int q = 0; q < points.n_points; ++q, shape += n * dim)
+    {
+      dealii::Tensor<2, dim> F_D(dealii::unit_symmetric_tensor<dim>());
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            F_D[i][j] += scale * u(nodes[a] + i) * shape[a * dim + j];
+      const IncrementStart   &start_here = starts[first_point[active_cell] + q];
+      const VolumeChange<dim> change(bodies[cell.body].law->work(), F_D, start_here);
+      const double  weight = points.weights[q] * points.weight_scale / start_here.volume_ratio;
+      const double *psi    = &mode_values[(first_point[active_cell] + q) * n_max];
+      for (unsigned int m = 0; m < n_max; ++m)
+        {
+          result.values[m] += weight * psi[m] * change.value;
+          for (unsigned int i = 0; with_derivatives && i < n * dim; ++i)
+            {
+              double sum = 0.;
+              for (unsigned int j = 0; j < dim; ++j)
+                sum += change.H[i % dim][j] * shape[i / dim * dim + j];
+              result.derivatives[m][i] += weight * psi[m] * change.scale * scale * sum;
+            }
+        }
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<typename Bulk<dim>::CellVolume>
+Bulk<dim>::cell_volumes(const Vector &u) const
+{
+  std::vector<CellVolume> result;
+  result.reserve(fields.cells().size());
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    result.push_back(cell_volume(a, u, false));
+  return result;
+}
+
+template <int dim>
+VolumeChange<dim>
+Bulk<dim>::volume_change(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                         const CellVolume &volume, const dealii::Tensor<2, dim> &F_D,
+                         const IncrementStart &start_here, dealii::Tensor<2, dim> &projected) const
+{
+  const unsigned int body = fields.cells()[active_cell].body;
+  VolumeChange<dim>  change(bodies[body].law->work(), F_D, start_here);
+  const auto         psi   = modes[active_cell](unit_point);
+  double             value = 0.;
+  for (unsigned int m = 0; m < psi.size(); ++m)
+    value += psi[m] * volume.values[m];
+  projected = change.project(value, projected_shares[body] / dim);
+  return change;
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+Bulk<dim>::projected_increment(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                               const CellVolume &volume, const dealii::Tensor<2, dim> &F_D,
+                               const IncrementStart &start_here) const
+{
+  dealii::Tensor<2, dim> projected = F_D;
+  if (volume.is_projected)
+    volume_change(active_cell, unit_point, volume, F_D, start_here, projected);
+  return projected;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template void   Bulk<dim>::set_up_volume_rows();                                                \
+  template bool   Bulk<dim>::projected_divergence(const unsigned int, const dealii::Point<dim> &, \
+                                                  std::vector<double> &) const;                   \
+  template void   Bulk<dim>::add_projected_stiffness(const unsigned int, const double,            \
+                                                     dealii::FullMatrix<double> &) const;         \
+  template double Bulk<dim>::ghost_stiffness(const GhostFace &) const;                            \
+  template void   Bulk<dim>::find_secant_ratios();                                                \
+  template void   Bulk<dim>::set_up_increment_modes();                                            \
+  template typename Bulk<dim>::CellVolume Bulk<dim>::cell_volume(                                 \
+    const unsigned int, const Vector &, const bool) const;                                        \
+  template std::vector<typename Bulk<dim>::CellVolume> Bulk<dim>::cell_volumes(const Vector &)    \
+    const;                                                                                        \
+  template VolumeChange<dim> Bulk<dim>::volume_change(                                            \
+    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                           \
+    const dealii::Tensor<2, dim> &, const IncrementStart &, dealii::Tensor<2, dim> &) const;      \
+  template dealii::Tensor<2, dim> Bulk<dim>::projected_increment(                                 \
+    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                           \
+    const dealii::Tensor<2, dim> &, const IncrementStart &) const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree
