@@ -158,5 +158,22 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
   write_checkpoint_file(directory, 2, "third");
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
 }
+TEST_F(CheckpointFile, WhateverByteIsDamagedTheOneBeforeIsUsed)
+{
+  write_checkpoint_file(directory, 2, "first");
+  write_checkpoint_file(directory, 2, "second");
+  const std::string good = bytes(), older = bytes("checkpoint.old");
+  for (std::size_t i = 0; i < good.size(); ++i)
+    {
+      std::string bad = good;
+      bad[i] ^= 4;
+      put(bad);
+      put(older, "checkpoint.old");
+      const auto read = read_checkpoint_file(directory, 2);
+      EXPECT_EQ(read.contents, "first") << "byte " << i;
+      EXPECT_EQ(read.warning.find("format"), std::string::npos) << read.warning;
+    }
+}
+
 } // namespace
 } // namespace scree
