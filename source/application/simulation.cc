@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/base/interruption.h>
 #include <scree/contact/contact_reach.h>
 #include <scree/mechanics/linear_prediction.h>
 
@@ -59,6 +60,7 @@ Simulation<dim>::set_up()
   state.contact      = contact->initial_history();
   if (is_moving())
     start_step();
+  results->require_distinct_columns(*equilibrium, *contact);
   // Probes outside their bodies are told before anything is computed.
   results->require_probes(*bulk, equilibrium->with_ghosts(state.displacement));
 }
@@ -174,6 +176,9 @@ template <int dim>
 void
 Simulation<dim>::run()
 {
+  const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
+  if (!step_control.finished())
+    require_prescribable();
   dealii::Timer wall;
   unsigned int  attempts = 1;
   while (!step_control.finished())
@@ -188,6 +193,7 @@ Simulation<dim>::run()
           move_geometry();
         results->write_history();
         save_if_due();
+        end_if_interrupted();
       }
     else
       {
@@ -299,6 +305,7 @@ Simulation<dim>::solve_step(const double time)
           return false;
         }
     }
+  const auto balances = require_balance(u);
   equilibrium->accept(u, state.contact);
   require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
                                communicator);
@@ -316,6 +323,7 @@ Simulation<dim>::solve_step(const double time)
       log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
                + " may have met, but were too far apart at the start for contact between them; "
                  "raise Contact/Shift if they should touch");
+  warn_of_rotations(balances, u);
   last_increment = u;
   last_increment -= state.displacement;
   last_increment *= 1. / (time - state.time);
@@ -416,6 +424,7 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
         for (unsigned int b = 0; b < bodies.size(); ++b)
           largest_contact_force[b] = std::max(largest_contact_force[b], forces[b]);
       }
+    end_if_interrupted();
     count_flips();
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
                              + short_number(iteration.residual) + " of "
