@@ -5,6 +5,8 @@
 #include <scree/base/exceptions.h>
 #include <scree/state/checkpoint_file.h>
 
+#include <boost/crc.hpp>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -129,6 +131,11 @@ TEST_F(CheckpointFile, ErrorsSayWhatIsWrong)
   write_checkpoint_file(directory, 2, "contents");
   std::string other_format = bytes();
   other_format[16]         = 99;
+  other_format.resize(other_format.size() - 4);
+  boost::crc_32_type crc;
+  crc.process_bytes(other_format.data(), other_format.size());
+  const std::uint32_t checksum = crc.checksum();
+  other_format.append(reinterpret_cast<const char *>(&checksum), sizeof checksum);
   put(other_format);
   expect_error("is of format 99");
 }
