@@ -1,12 +1,15 @@
 #include <scree/application/command_line.h>
+#include <scree/application/directory_lock.h>
 #include <scree/application/refinement_study.h>
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/base/interruption.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -117,26 +120,32 @@ write_documentation(const std::string &file_name)
       file.write_markdown(std::cout);
       return;
     }
+  require(!std::filesystem::exists(std::filesystem::symlink_status(file_name)), file_name,
+          "exists already", "choose another name, or remove it: nothing is overwritten");
   std::ofstream out(file_name);
   require(out.good(), file_name, "cannot be written");
   file.write_markdown(out);
+  out.close();
+  require(out.good(), file_name, "cannot be written to the end", "make room on the disk");
 }
 
-/** Makes the output directory; on the first process only. */
-void
+/** Makes the output directory and takes it; on the first process only. */
+DirectoryLock
 prepare_directory(const std::string &directory, const bool is_first)
 {
   if (!is_first)
-    return;
+    return {};
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   require(!error && std::filesystem::is_directory(directory), "--output " + directory,
           "the directory cannot be made: " + error.message(), "choose another place");
+  DirectoryLock lock(directory, "--output " + directory);
   for (const std::string name : {"history.csv", "study.csv", "cycle-0"})
     require(!std::filesystem::exists(directory + "/" + name), "--output " + directory,
             "the directory already holds results (" + name + ")",
             "remove them, choose another directory, or go on with scree --resume " + directory
               + ": nothing is overwritten");
+  return lock;
 }
 
 /** Writes the resolved parameters; the file that is there stays until the new one is complete. */
@@ -162,9 +171,10 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
   Parameters<dim> parameters;
   parameters.declare(file);
   file.check();
-  parameters.resolved = file.values();
-  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  prepare_directory(directory, is_first);
+  parameters.resolved          = file.values();
+  parameters.warnings          = file.warnings();
+  const bool          is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  const DirectoryLock lock     = prepare_directory(directory, is_first);
   MPI_Barrier(communicator);
   if (is_first)
     write_parameters(file, directory);
@@ -191,10 +201,16 @@ resume(ParameterFile &file, const std::string &directory, const MPI_Comm communi
   require(parameters.study.n_cycles == 1, directory, "a refinement study cannot be resumed",
           "start it anew in another directory; its finished cycles are in " + directory
             + "/cycle-0 ...");
+  const bool          is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  const DirectoryLock lock
+    = is_first ? DirectoryLock(directory, "--resume " + directory) : DirectoryLock();
+  MPI_Barrier(communicator);
+  if (!lock.previous().empty())
+    std::cout << "The run before (" << lock.previous() << ") did not come to its end" << std::endl;
   const auto checkpoint = Checkpoint<dim>::read(directory, communicator);
   require_resumable(checkpoint.parameters, parameters.resolved);
   Simulation<dim> simulation(parameters, directory, communicator, &checkpoint);
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  if (is_first)
     write_parameters(file, directory);
   simulation.run();
 }
@@ -259,9 +275,17 @@ run_command_line(int argc, char **argv, const MPI_Comm communicator)
 {
   MPI_Comm    for_errors = dealii::Utilities::MPI::duplicate_communicator(communicator);
   std::string message;
+  int         code     = 1;
+  bool        is_quiet = false;
   try
     {
       execute(parse(argc, argv), communicator);
+    }
+  catch (const Interrupted &interrupted)
+    {
+      message  = interrupted.message;
+      code     = 128 + interrupted.signal;
+      is_quiet = interrupted.signal == SIGPIPE;
     }
   catch (const UserError &error)
     {
@@ -279,15 +303,15 @@ run_command_line(int argc, char **argv, const MPI_Comm communicator)
   const bool all_failed = !message.empty() && meet(for_errors);
   // The first process speaks for all that met an error together; one that failed alone ends the
   // others.
-  if (!message.empty()
+  if (!message.empty() && !is_quiet
       && (!all_failed || dealii::Utilities::MPI::this_mpi_process(communicator) == 0))
     {
       std::cout << std::flush;
       std::cerr << "scree: " + message + "\n" << std::flush;
     }
   if (!message.empty() && !all_failed)
-    MPI_Abort(communicator, 1);
+    MPI_Abort(communicator, code);
   dealii::Utilities::MPI::free_communicator(for_errors);
-  return message.empty() ? 0 : 1;
+  return message.empty() ? 0 : code;
 }
 } // namespace scree

@@ -1,6 +1,7 @@
 #include <scree/application/parameters.h>
 
 #include <algorithm>
+#include <set>
 
 namespace scree
 {
@@ -12,6 +13,37 @@ declare_dimension(ParameterFile &file)
                     "2: plane strain, unit thickness; 3.");
   return dimension;
 }
+
+namespace
+{
+/**
+ * Pairs of bodies are called 'a-b': which of them would have the name of another pair or body, in
+ * words; nothing if none.
+ */
+std::string
+clashing_pairs(const std::vector<std::string> &names)
+{
+  const std::set<std::string> all(names.begin(), names.end());
+  for (const std::string &name : names)
+    for (std::size_t dash = name.find('-'); dash != std::string::npos;
+         dash             = name.find('-', dash + 1))
+      {
+                    // name = head-tail, and head is a body: head-(tail-other) is (head-tail)-other.
+        const std::string head = name.substr(0, dash), tail = name.substr(dash + 1);
+        if (all.count(head) == 0)
+          continue;
+        if (all.count(tail) == 1)
+          return "the pair of the bodies '" + head + "' and '" + tail
+                 + "' would have the name of the body '" + name + "' in history.csv";
+        for (const std::string &other : names)
+          if (all.count(tail + "-" + other) == 1)
+            return "the pairs of the bodies '" + name + "' and '" + other + "', and of '" + head
+                   + "' and '" + tail + "-" + other + "', would both be called '" + name + "-"
+                   + other + "' in history.csv";
+      }
+  return "";
+}
+} // namespace
 
 template <int dim>
 void
@@ -51,7 +83,7 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection discretization = root.subsection("Discretization", "Basis and cut cells.");
   discretization.entry("Degree", degree, dealii::Patterns::Integer(1, 2),
                        "Polynomial degree k of the displacement and of the level sets.");
-  discretization.entry("Ghost penalty", ghost_penalty, dealii::Patterns::Double(0.),
+  discretization.entry("Ghost penalty", ghost_penalty, dealii::Patterns::Double(0., 1.),
                        "gamma of the ghost penalty on faces of cut cells, 0.01 to 0.1; no "
                        "dimension.");
 
@@ -64,6 +96,9 @@ Parameters<dim>::declare(ParameterFile &file)
   bodies                        = declare_bodies<dim>(body_section, material_names);
   for (const auto &body : bodies)
     body_names.push_back(body.name);
+  const std::string clash = clashing_pairs(body_names);
+  if (!clash.empty())
+    body_section.error("Names", clash, "give one of the bodies another name");
   if (bodies.empty())
     body_section.error("Names", "there is no body", "set Names = ... and a subsection for each");
 

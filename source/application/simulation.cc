@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/base/interruption.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -57,6 +58,7 @@ Simulation<dim>::set_up()
   state.contact      = contact->initial_history();
   if (is_moving())
     start_step();
+  results->require_distinct_columns(*equilibrium, *contact);
   // Probes outside their bodies are told before anything is computed.
   results->require_probes(*bulk, equilibrium->with_ghosts(state.displacement));
 }
@@ -171,6 +173,9 @@ template <int dim>
 void
 Simulation<dim>::run()
 {
+  const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
+  if (!step_control.finished())
+    require_prescribable();
   dealii::Timer wall;
   unsigned int  attempts = 1;
   resolve_overlap();
@@ -187,6 +192,7 @@ Simulation<dim>::run()
           move_geometry();
         results->write_history();
         save_if_due();
+        end_if_interrupted();
       }
     else
       {

@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/base/interruption.h>
 #include <scree/bodies/rigid_placement.h>
 #include <scree/state/gather.h>
 
@@ -64,6 +65,38 @@ Simulation<dim>::save_if_due()
   // The first process, which has the clock and writes the tables, decides.
   if (!dealii::Utilities::MPI::broadcast(communicator, is_written && (by_steps || by_time)))
     return;
+  save();
+}
+
+template <int dim>
+void
+Simulation<dim>::end_if_interrupted()
+{
+  const int signal = dealii::Utilities::MPI::max(Interruption::signal(), communicator);
+  if (signal == 0)
+    return;
+  const bool        may_resume = parameters.study.n_cycles <= 1;
+  const std::string by         = "interrupted by " + signal_name(signal) + " ";
+  const std::string after      = step_control.n_accepted() == 0
+                                   ? "in the first load step"
+                                   : "after step " + std::to_string(step_control.n_accepted());
+  std::string       remedy;
+  if (may_resume && step_control.n_accepted() > 0)
+    {
+      if (dealii::Utilities::MPI::broadcast(communicator, results->flush()))
+        save();
+      remedy = "go on with scree --resume " + directory;
+    }
+  else
+    remedy = "start it anew: there is no checkpoint";
+  log.line("The run was " + by + after + "; " + remedy);
+  throw Interrupted{signal, by + after + "\n  remedy: " + remedy};
+}
+
+template <int dim>
+void
+Simulation<dim>::save()
+{
   const Timings::Scope  scope(timings, "checkpoint");
   const Checkpoint<dim> checkpoint = collect();
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -260,6 +293,8 @@ Simulation<dim>::resume_fixed(const FixedState<dim> &saved)
 
 #define SCREE_INSTANTIATE(dim)                                                       \
   template void            Simulation<dim>::save_if_due();                           \
+  template void            Simulation<dim>::save();                                  \
+  template void            Simulation<dim>::end_if_interrupted();                    \
   template Checkpoint<dim> Simulation<dim>::collect() const;                         \
   template FixedState<dim> Simulation<dim>::collect_fixed() const;                   \
   template void            Simulation<dim>::resume(const Checkpoint<dim> &);         \

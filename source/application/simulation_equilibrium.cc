@@ -97,6 +97,7 @@ Simulation<dim>::solve_step(const double time)
           return false;
         }
     }
+  const auto balances = require_balance(u);
   equilibrium->accept(u, state.contact);
   require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
                                communicator);
@@ -114,6 +115,7 @@ Simulation<dim>::solve_step(const double time)
       log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
                + " may have met, but were too far apart at the start for contact between them; "
                  "raise Contact/Shift if they should touch");
+  warn_of_rotations(balances, u);
   last_increment = u;
   last_increment -= state.displacement;
   last_increment *= 1. / (time - state.time);

@@ -9,10 +9,13 @@
 #include <deal.II/grid/grid_out.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 // What a run tells: its set-up, its steps, its failures.
 namespace scree
@@ -34,6 +37,8 @@ Simulation<dim>::report_set_up()
 {
   if (!parameters.title.empty())
     log.line(parameters.title);
+  for (const std::string &warning : parameters.warnings)
+    log.line("Warning: " + warning);
   log.line("Grid: " + std::to_string(grid->triangulation().n_global_active_cells())
            + " cells, finest edge " + short_number(grid->finest_size()));
   log.line("Unknowns: " + std::to_string(fields->n_dofs()) + " of degree "
@@ -91,6 +96,7 @@ template <int dim>
 void
 Simulation<dim>::check()
 {
+  require_prescribable();
   record = StepRecord();
   results->write_contact(record, *contact);
   results->write_fields(record, *bulk, equilibrium->with_ghosts(state.displacement));
@@ -108,9 +114,21 @@ Simulation<dim>::plot() const
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0
       || !std::filesystem::exists(script))
     return;
-  const std::string command = "'" + script + "' '" + directory + "'";
-  if (std::system(command.c_str()) != 0)
-    std::cout << "No pictures: " << command << " failed" << std::endl;
+  // Without a shell: a directory may have any name.
+  const std::string place     = directory[0] == '-' ? "./" + directory : directory;
+  const char *const command[] = {script.c_str(), place.c_str(), nullptr};
+  pid_t             process   = 0;
+  int               status    = 1;
+  std::cout << std::flush;
+  if (posix_spawn(&process, command[0], nullptr, nullptr, const_cast<char *const *>(command),
+                  environ)
+      == 0)
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR)
+      {
+      }
+  if (status != 0)
+    std::cout << "No pictures: " << script << " failed for the directory " << directory
+              << std::endl;
 }
 
 template <int dim>

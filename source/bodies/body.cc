@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/bodies/body.h>
+#include <scree/geometry/distance_claim.h>
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/parameters/expression_entry.h>
 
@@ -153,6 +154,8 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       const std::shared_ptr<const Shape<dim>> shape      = make_shape<dim>(body.shape);
       const LatticeFrame<dim>                &body_frame = is_rigid ? wide_frame : frame;
       const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
+      if (body.shape.type == ShapeType::expression && body.shape.expression_is_distance)
+        require_distance(*shape, frame.spacing, box, body.path + "/Shape");
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);

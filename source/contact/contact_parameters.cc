@@ -12,16 +12,79 @@ namespace
 bool
 fits(const std::string &pattern, const std::string &text)
 {
-  if (pattern.empty())
-    return text.empty();
-  if (pattern[0] == '*')
-    {
-      for (std::size_t i = 0; i <= text.size(); ++i)
-        if (fits(pattern.substr(1), text.substr(i)))
-          return true;
+  constexpr auto none = std::string::npos;
+  std::size_t    p = 0, t = 0, last_star = none, after_star = 0;
+  while (t < text.size())
+    if (p < pattern.size() && pattern[p] == '*')
+      {
+        last_star  = p++;
+        after_star = t;
+      }
+    else if (p < pattern.size() && pattern[p] == text[t])
+      {
+        ++p;
+        ++t;
+      }
+    else if (last_star != none)
+      {
+        // The last '*' takes one letter more.
+        p = last_star + 1;
+        t = ++after_star;
+      }
+    else
       return false;
-    }
-  return !text.empty() && pattern[0] == text[0] && fits(pattern.substr(1), text.substr(1));
+  while (p < pattern.size() && pattern[p] == '*')
+    ++p;
+  return p == pattern.size();
+}
+
+/** Which bodies fit the two names of a law. */
+struct Fitting
+{
+  Fitting(const ContactPairParameters &law, const std::vector<std::string> &bodies)
+  {
+    for (const std::string &body : bodies)
+      {
+        first.push_back(fits(law.bodies[0], body));
+        second.push_back(fits(law.bodies[1], body));
+      }
+  }
+
+  bool operator()(const unsigned int a, const unsigned int b) const
+  {
+    return (first[a] && second[b]) || (first[b] && second[a]);
+  }
+
+  std::vector<bool> first, second;
+};
+
+/** Why a law is used for no pair of bodies; nothing if it is used. */
+std::string
+why_unused(const unsigned int law, const std::vector<ContactPairParameters> &laws,
+           const std::vector<Fitting> &fitting, const std::vector<std::string> &bodies)
+{
+  std::string taken;
+  for (unsigned int a = 0; a < bodies.size(); ++a)
+    for (unsigned int b = a + 1; b < bodies.size(); ++b)
+      {
+        if (!fitting[law](a, b))
+          continue;
+        unsigned int last = laws.size() - 1;
+        while (!fitting[last](a, b))
+          --last;
+        if (last == law)
+          return "";
+        if (taken.empty())
+          taken = "the law '" + laws[law].name + "' is used for no pair of bodies: '"
+                  + laws[last].name + "', which comes later, counts for " + bodies[a] + " and "
+                  + bodies[b];
+      }
+  if (!taken.empty())
+    return taken;
+  const auto &names  = laws[law].bodies;
+  const bool  is_one = names[0] == names[1] && names[0].find('*') == std::string::npos;
+  return "the law '" + laws[law].name + "' fits no two bodies"
+         + (is_one ? ": a body is not in contact with itself" : "");
 }
 } // namespace
 
@@ -35,10 +98,12 @@ ContactPairParameters::declare(ParameterSection &section)
                 "(glued where the bodies touch at the start; elsewhere they do not interact).");
   section.entry("Friction coefficient", friction_coefficient, dealii::Patterns::Double(0.),
                 "Coulomb's mu; no dimension.");
-  section.entry("Normal penalty factor", normal_factor, positive_number(),
+  // Softer ones let bodies through one another, stiffer ones leave no digits to the stresses.
+  const dealii::Patterns::Double penalty_factor(0.01, 1e6);
+  section.entry("Normal penalty factor", normal_factor, penalty_factor,
                 "c_n in eps_n = c_n E/h with E = 2/(1/E_a + 1/E_b), twice the modulus of the other "
                 "body for a rigid one; no dimension.");
-  section.entry("Tangential penalty factor", tangential_factor, positive_number(),
+  section.entry("Tangential penalty factor", tangential_factor, penalty_factor,
                 "c_t in eps_t = c_t E/h; no dimension.");
   section.entry("Penalty modulus", penalty_modulus, positive_number(),
                 "E of the penalties; default: from the moduli of the bodies. Needed between two "
@@ -80,9 +145,11 @@ ContactPairParameters::matches(const std::string &a, const std::string &b) const
 void
 ContactParameters::declare(ParameterSection &section, const std::vector<std::string> &body_names)
 {
-  section.entry("Shift", shift, dealii::Patterns::Double(0.5),
+  section.entry("Shift", shift, dealii::Patterns::Double(0.5, 100.),
                 "Contact is looked for where both bodies are nearer than this, in finest cells; it "
                 "must exceed half the approach of the surfaces.");
+  std::vector<ParameterSection> subsections;
+  bool                          all_known = true;
   for (auto &[name, subsection] :
        section.named("Names", "Names of the contact laws; the last that fits a pair counts."))
     {
@@ -97,7 +164,23 @@ ContactParameters::declare(ParameterSection &section, const std::vector<std::str
             for (const auto &body : body_names)
               known += (known.empty() ? "" : ", ") + body;
             subsection.error("Bodies", "no body is called '" + pattern + "'", "bodies: " + known);
+            all_known = false;
           }
+      all_known &= laws.back().bodies.size() == 2;
+      subsections.push_back(subsection);
+    }
+  if (!all_known || body_names.size() < 2)
+    return;
+  std::vector<Fitting> fitting;
+  for (const ContactPairParameters &law : laws)
+    fitting.emplace_back(law, body_names);
+  for (unsigned int i = 0; i < laws.size(); ++i)
+    {
+      const std::string reason = why_unused(i, laws, fitting, body_names);
+      if (!reason.empty())
+        subsections[i].error("Bodies", reason,
+                             "remove one of the laws, give each the two names of its bodies, and "
+                             "write the general one first: the last that fits a pair counts");
     }
 }
 

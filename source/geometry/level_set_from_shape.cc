@@ -68,6 +68,18 @@ fill_thin_body(const Shape<dim> &shape, Lattice<dim> &lattice)
       }
 }
 
+// A level set that is no distance may have values whose squares are no numbers.
+template <int dim>
+void
+scale_to_one(Lattice<dim> &lattice)
+{
+  double largest = 0.;
+  for (const double value : lattice.values())
+    largest = std::max(largest, std::abs(value));
+  for (double &value : lattice.values())
+    value /= largest;
+}
+
 // The part of a box that the body needs.
 template <int dim>
 NodeBox<dim>
@@ -118,7 +130,10 @@ find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const doub
     lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
   check_finite(lattice, where);
   if (!shape.is_distance() && has_contour(lattice))
-    compute_distances(lattice);
+    {
+      scale_to_one(lattice);
+      compute_distances(lattice);
+    }
   return lattice;
 }
 

@@ -101,24 +101,6 @@ closest_on_ellipse(const Point<dim> &y, const Point<dim> &e)
   return result;
 }
 
-// Twice the area of the triangle a, b, c; positive if it turns to the left.
-double
-turn(const Point<2> &a, const Point<2> &b, const Point<2> &c)
-{
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-bool
-segments_meet(const Point<2> &a, const Point<2> &b, const Point<2> &c, const Point<2> &d)
-{
-  const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
-  if (abc * abd < 0 && cda * cdb < 0)
-    return true;
-  const auto on_segment = [](const Point<2> &p, const Point<2> &q, const Point<2> &x) {
-    return distance_to_segment(x, p, q) <= 1e-12 * p.distance(q);
-  };
-  return on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
-}
 } // namespace
 
 template <int dim>
@@ -283,6 +265,7 @@ Capsule<dim>::bounding_box() const
 
 Polygon::Polygon(const std::vector<Point<2>> &vertices)
     : vertices(vertices)
+    , sides(vertices)
 {
   Assert(vertices.size() >= 3, ExcMessage("A polygon needs 3 vertices."));
 }
@@ -290,17 +273,7 @@ Polygon::Polygon(const std::vector<Point<2>> &vertices)
 double
 Polygon::signed_distance(const Point<2> &x) const
 {
-  double distance = unbounded;
-  bool   inside   = false;
-  for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++)
-    {
-      const Point<2> &a = vertices[j], &b = vertices[i];
-      distance = std::min(distance, distance_to_segment(x, a, b));
-      // Count the sides that a ray to the right crosses.
-      if ((a[1] > x[1]) != (b[1] > x[1]) && (turn(a, b, x) > 0) == (b[1] > a[1]))
-        inside = !inside;
-    }
-  return inside ? -distance : distance;
+  return sides.signed_distance(x);
 }
 
 BoundingBox<2>
@@ -312,27 +285,7 @@ Polygon::bounding_box() const
 bool
 Polygon::crosses_itself(const std::vector<Point<2>> &vertices)
 {
-  const std::size_t n = vertices.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
-      {
-        const Point<2> &a = vertices[i], &b = vertices[(i + 1) % n];
-        const Point<2> &c = vertices[j], &d = vertices[(j + 1) % n];
-        // Sides with a common vertex must not fold back onto each other.
-        if (j == i + 1 || (j + 1) % n == i)
-          {
-            const Point<2> &shared = j == i + 1 ? b : a, &p = j == i + 1 ? a : b,
-                           &q  = j == i + 1 ? d : c;
-            const double scale = shared.distance(p) * shared.distance(q);
-            if (scale == 0
-                || ((p - shared) * (q - shared) > 0
-                    && std::abs(turn(shared, p, q)) <= 1e-12 * scale))
-              return true;
-          }
-        else if (segments_meet(a, b, c, d))
-          return true;
-      }
-  return false;
+  return PolygonSides(vertices).cross();
 }
 
 template <int dim>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <unordered_map>
 
@@ -73,10 +74,23 @@ GridParameters<dim>::declare(ParameterSection &section)
         section.error("Upper corner", "must lie above Lower corner in every direction", "");
         return;
       }
+  double largest_coordinate = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    largest_coordinate = std::max({largest_coordinate, std::abs(lower[d]), std::abs(upper[d])});
+  if (!(largest_coordinate < 1e9 * cell_size(finest_level)) || !(largest_coordinate < 1e100)
+      || !(cell_size(finest_level) > 1e-100))
+    section.error("Upper corner",
+                  "the box is so far from the origin, or so large or small, that cells of edge "
+                    + number(cell_size(finest_level)) + " cannot be told apart at "
+                    + number(largest_coordinate),
+                  "move the origin of coordinates near the bodies, and choose usual units");
   for (unsigned int d = 1; d < dim; ++d)
     {
       const double edge = cell_size(0), other = (upper[d] - lower[d]) / cells[d];
-      if (std::abs(edge - other) > 1e-10 * edge)
+      // Corners far from the origin are rounded more than their difference.
+      const double rounding
+        = 4. * std::numeric_limits<double>::epsilon() * largest_coordinate / cells[d];
+      if (std::abs(edge - other) > 1e-10 * edge + rounding)
         section.error("Cells",
                       "cells are not squares or cubes: edges " + number(edge) + " and "
                         + number(other),

@@ -53,6 +53,35 @@ hardening_problems(const MaterialParameters &parameters)
   return problems;
 }
 
+/** Constants that are numbers, but leave none for forces and energies. */
+std::vector<Problem>
+extreme_constants(const MaterialParameters &parameters)
+{
+  constexpr double     smallest = 1e-30, largest = 1e30;
+  constexpr double     nearest = 1e-6; // to the bounds of Poisson's ratio
+  std::vector<Problem> problems;
+  for (const auto &[key, value] :
+       {std::make_pair("Young's modulus", parameters.young),
+        std::make_pair("Yield stress", parameters.yield_stress),
+        std::make_pair("Hardening modulus", parameters.hardening_modulus),
+        std::make_pair("Density", parameters.density)})
+    if (value > 0 && (value < smallest || value > largest))
+      problems.push_back(
+        {key, "must lie between 1e-30 and 1e30", "choose units in which it is a usual number"});
+  const double nu = parameters.poisson;
+  if (nu > 0.5 - nearest && nu < 0.5)
+    problems.push_back({"Poisson's ratio",
+                        "is nearer to 0.5 than 1e-6: round-off in the bulk modulus would swamp "
+                        "all other forces",
+                        "take 0.4999 or less: the material then is incompressible in practice"});
+  if (nu < -1 + nearest && nu > -1)
+    problems.push_back({"Poisson's ratio",
+                        "is nearer to -1 than 1e-6: round-off in the shear modulus would swamp "
+                        "all other forces",
+                        "take -0.999 or more"});
+  return problems;
+}
+
 std::vector<Problem>
 problems_of(const MaterialParameters &parameters)
 {
@@ -72,6 +101,8 @@ problems_of(const MaterialParameters &parameters)
        "0.5 (incompressible) is not possible in a displacement formulation; take 0.49999 at most"});
   if (!(parameters.density >= 0))
     problems.push_back({"Density", "must not be negative", "give the mass per volume, or 0"});
+  for (const Problem &problem : extreme_constants(parameters))
+    problems.push_back(problem);
   return problems;
 }
 } // namespace

@@ -76,8 +76,14 @@ Equilibrium<dim>::set_up_matrices()
     stiffness.vmult(start_forces, bulk.step_start()->displacement());
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
+  diagonal.reinit(fields.owned(), communicator);
+  scratch.reinit(fields.owned(), communicator);
   for (const DofIndex index : fields.owned())
-    largest_stiffness = std::max(largest_stiffness, std::abs(stiffness.diag_element(index)));
+    {
+      diagonal(index)   = stiffness.diag_element(index);
+      largest_stiffness = std::max(largest_stiffness, std::abs(diagonal(index)));
+    }
+  diagonal.compress(dealii::VectorOperation::insert);
   largest_stiffness = dealii::Utilities::MPI::max(largest_stiffness, communicator);
 }
 
@@ -244,7 +250,9 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     ghosted = u;
   else
     ghosted = with_ghosts(u);
-  displacement_norm = u.l2_norm();
+  scratch = u;
+  scratch.scale(diagonal);
+  stiffness_times_displacement = scratch.l2_norm();
   contact.evaluate(ghosted, history);
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
@@ -396,14 +404,14 @@ template <int dim>
 double
 Equilibrium<dim>::round_off() const
 {
-  double of_unknowns = 1e-15 * displacement_norm;
+  double result = 1e-15 * stiffness_times_displacement;
   if (bulk.step_start() != nullptr)
     {
       // Displacements since the beginning are differences of positions.
       const auto [lower, upper] = fields.grid.box().get_boundary_points();
-      of_unknowns += 1e-16 * std::max(lower.norm(), upper.norm()) * std::sqrt(fields.n_dofs());
+      result += 1e-16 * std::max(lower.norm(), upper.norm()) * diagonal.l2_norm();
     }
-  return largest_stiffness * of_unknowns;
+  return result;
 }
 
 template <int dim>

@@ -46,5 +46,9 @@ MovingGeometryParameters::declare(ParameterSection &section)
   section.entry("Largest slip", largest_slip, positive_number(),
                 "A step in which closed contact slides farther than this many finest cells is cut "
                 "[-].");
+  section.entry("Leaving the box", may_leave_box, {{false, "refused"}, {true, "allowed"}},
+                "What happens when a deformable body moves out through a face of the background "
+                "box, where its level set is cut off. refused: the run ends. allowed: it goes on, "
+                "and the part outside is lost.");
 }
 } // namespace scree

@@ -4,24 +4,28 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace scree
 {
 namespace
 {
-/** Whether two conditions prescribe different values, at one of some times. */
+/** Whether two conditions prescribe different values, at one of some times; `length` is that of
+ * which displacements are parts. */
 template <int dim>
 bool
 contradict(const BoundaryCondition<dim> &a, const unsigned int value_a,
            const BoundaryCondition<dim> &b, const unsigned int value_b,
-           const dealii::Point<dim> &position)
+           const dealii::Point<dim> &position, const double length)
 {
+  // sin(pi) is no zero.
+  const double rounding = 8. * std::numeric_limits<double>::epsilon() * length;
   for (const double time : {0., 0.37, 1.})
     {
       const double here  = a.value(value_a, position, time);
       const double there = b.value(value_b, position, time);
-      if (std::abs(here - there) > 1e-10 * (std::abs(here) + std::abs(there)))
+      if (std::abs(here - there) > 1e-10 * (std::abs(here) + std::abs(there)) + rounding)
         return true;
     }
   return false;
@@ -95,8 +99,9 @@ StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Bo
                 if (known.count(index))
                   {
                     const auto &other = *known.at(index);
-                    contradiction |= contradict(*condition, k, *supports[other.support].second,
-                                                other.value, reference_position);
+                    contradiction
+                      |= contradict(*condition, k, *supports[other.support].second, other.value,
+                                    reference_position, fields.grid.box().side_length(component));
                     continue;
                   }
                 found[index] = {index, component, support, k, position, reference_position};

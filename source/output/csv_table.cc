@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace scree
@@ -35,7 +36,8 @@ opened(const std::string &file_name, const int mode)
 } // namespace
 
 CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> &columns)
-    : file(opened(file_name, O_CREAT | O_TRUNC))
+    : file_name(file_name)
+    , file(opened(file_name, O_CREAT | O_TRUNC))
     , n_columns(columns.size())
     , pending(header(columns))
 {
@@ -44,7 +46,8 @@ CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> 
 
 CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> &columns,
                    const std::size_t n_rows)
-    : file(opened(file_name, 0))
+    : file_name(file_name)
+    , file(opened(file_name, 0))
     , n_columns(columns.size())
     , row_count(n_rows)
 {
@@ -83,9 +86,20 @@ CsvTable::add_row(const std::vector<double> &values)
   flush();
 }
 
+void
+CsvTable::require_in_place() const
+{
+  struct stat open_one, named;
+  require(fstat(file, &open_one) == 0 && stat(file_name.c_str(), &named) == 0
+            && open_one.st_dev == named.st_dev && open_one.st_ino == named.st_ino,
+          file_name, "was removed or replaced while the run wrote it",
+          "leave the output directory alone; start the run anew");
+}
+
 bool
 CsvTable::flush()
 {
+  require_in_place();
   while (!pending.empty())
     {
       const ssize_t n = write(file, pending.data(), pending.size());

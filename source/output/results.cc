@@ -1,3 +1,5 @@
+#include <scree/base/exceptions.h>
+#include <scree/base/log.h>
 #include <scree/output/results.h>
 #include <scree/output/vtu_files.h>
 
@@ -5,11 +7,20 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
+#include <set>
+
 namespace scree
 {
 namespace
 {
 const std::vector<std::string> axes = {"x", "y", "z"};
+
+bool
+ends_with(const std::string &text, const std::string &end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 /** Column names of a force and its moment. */
 template <int dim>
@@ -136,6 +147,19 @@ Results<dim>::columns(const Equilibrium<dim> &equilibrium, const ContactPoints<d
 }
 
 template <int dim>
+void
+Results<dim>::require_distinct_columns(const Equilibrium<dim>   &equilibrium,
+                                       const ContactPoints<dim> &contact) const
+{
+  std::set<std::string> seen;
+  for (const std::string &name : columns(equilibrium, contact))
+    require(seen.insert(name).second, "Bodies",
+            "two columns of history.csv and probes.csv would be called '" + name + "'",
+            "change the names of bodies, boundary conditions or probes: those of pairs, 'a-b', and "
+            "of conditions, 'body.condition', must differ when they are joined");
+}
+
+template <int dim>
 std::vector<double>
 Results<dim>::last_values() const
 {
@@ -200,6 +224,14 @@ void
 Results<dim>::write_history()
 {
   AssertDimension(history_row.size(), history_names.size());
+  // Only a pair without contact points has no gap.
+  for (unsigned int i = 0; i < history_row.size(); ++i)
+    require(std::isfinite(history_row[i]) || ends_with(history_names[i], ".minimum_gap"),
+            directory + "/history.csv",
+            "after the step to time " + short_number(history_row[0]) + ", which converged, '"
+              + history_names[i] + "' is no finite number",
+            "check that moduli, penalties, loads and lengths are in consistent units, neither "
+            "extremely large nor small");
   if (!is_first)
     return;
   if (!history)

@@ -119,7 +119,7 @@ ParameterFile::override_value(const std::string &path_equals_value)
   ParameterNode *section = &tree->root;
   for (unsigned int i = 0; i + 1 < names.size(); ++i)
     {
-      section = &section->get_section(names[i]);
+      section = &section->get_written_section(names[i], where);
       if (section->position.file.empty())
         section->position.file = "--set";
     }
@@ -133,6 +133,16 @@ ParameterSection
 ParameterFile::root()
 {
   return {*tree, tree->root};
+}
+
+std::vector<std::string>
+ParameterFile::warnings() const
+{
+  std::vector<std::string> result;
+  for (const auto &warning : tree->warnings)
+    result.push_back(warning.where() + ": " + warning.what
+                     + (warning.remedy.empty() ? "" : "; " + warning.remedy));
+  return result;
 }
 
 void
@@ -152,10 +162,15 @@ ParameterFile::check() const
                    });
   if (problems.size() == 1)
     throw UserError(problems[0].where(), problems[0].what, problems[0].remedy);
-  std::string list;
-  for (const auto &problem : problems)
-    list += "\n" + problem.where() + ": " + problem.what
-            + (problem.remedy.empty() ? "" : "\n  remedy: " + problem.remedy);
-  throw UserError(tree->name, std::to_string(problems.size()) + " problems" + list);
+  constexpr std::size_t most_told = 50;
+  std::string           list;
+  for (std::size_t i = 0; i < std::min(problems.size(), most_told); ++i)
+    list += "\n" + problems[i].where() + ": " + problems[i].what
+            + (problems[i].remedy.empty() ? "" : "\n  remedy: " + problems[i].remedy);
+  throw UserError(
+    tree->name,
+    std::to_string(problems.size()) + " problems"
+      + (problems.size() > most_told ? ", the first " + std::to_string(most_told) + " of them" : "")
+      + list);
 }
 } // namespace scree

@@ -47,6 +47,9 @@ nearest_name(const std::string &name, const std::vector<std::string> &candidates
   smallest = std::min(smallest, std::max<std::size_t>(name.size(), 1));
   for (const auto &candidate : candidates)
     {
+      const auto [shorter, longer] = std::minmax({candidate.size(), name.size()});
+      if (longer - shorter >= smallest)
+        continue;
       const std::size_t distance = levenshtein_distance(lower, lower_case(candidate));
       if (distance < smallest)
         {

@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/parameters/nearest_name.h>
+#include <scree/parameters/text_file.h>
 #include <scree/parameters/tree.h>
 
 #include <deal.II/base/utilities.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -17,6 +17,11 @@ namespace
 {
 namespace fs = std::filesystem;
 using dealii::Utilities::trim;
+
+// Far beyond what an input needs; what exceeds them was not meant to be one.
+constexpr std::size_t largest_size  = 64000000; // bytes of all files
+constexpr std::size_t most_files    = 1000;     // counted as often as they are included
+constexpr std::size_t deepest_chain = 100;      // of files that include each other
 
 /** A line with its continuations joined and without its comment; the keyword in lower case. */
 struct Statement
@@ -71,12 +76,19 @@ class Reader
 public:
   void read_file(const std::string &path, const std::string &where, ParameterNode &section)
   {
-    std::ifstream in(path);
-    require(in.is_open() && !fs::is_directory(path), where, "cannot open the file '" + path + "'",
-            open_files.empty()
-              ? "check the path"
-              : "the path of an included file is relative to the file that includes it");
-    const std::string canonical = fs::weakly_canonical(path).string();
+    require(open_files.size() < deepest_chain, where,
+            "more than " + std::to_string(deepest_chain) + " files include one another in a chain",
+            "write the parameters into fewer files");
+    require(++n_files <= most_files, where,
+            "more than " + std::to_string(most_files) + " files are included",
+            "write the parameters into fewer files; one that is included twice counts twice");
+    const std::string text = read_text_file(
+      path, largest_size - n_bytes, where,
+      open_files.empty() ? "check the path"
+                         : "the path of an included file is relative to the file that includes it");
+    n_bytes += text.size();
+    std::istringstream in(text);
+    const std::string  canonical = fs::weakly_canonical(path).string();
     require(std::find(open_files.begin(), open_files.end(), canonical) == open_files.end(), where,
             "the file '" + path + "' includes itself, directly or through other files",
             "remove one of the 'include' lines");
@@ -101,7 +113,7 @@ public:
                       && statement.rest.find_first_of("/=") == std::string::npos,
                     where, "'" + statement.rest + "' cannot be the name of a section",
                     "write 'subsection NAME' with a name without '/' and '='");
-            section = &section->get_section(statement.rest);
+            section = &section->get_written_section(statement.rest, where);
             if (section->position.file.empty())
               section->position = statement.position;
             open_sections.push_back(statement);
@@ -155,6 +167,8 @@ private:
 
   /** The files being read, from the first to the one included last. */
   std::vector<std::string> open_files;
+  std::size_t              n_files = 0; //!< read so far
+  std::size_t              n_bytes = 0; //!< of them
 };
 } // namespace
 
@@ -167,7 +181,7 @@ read_parameters(ParameterTree &tree, const std::string &path)
 void
 read_parameters_from_string(ParameterTree &tree, const std::string &text)
 {
-  std::istringstream in(text);
+  std::istringstream in(checked_text(text, tree.name));
   Reader().read(in, tree.name, tree.root);
 }
 } // namespace scree

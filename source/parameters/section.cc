@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 namespace scree
 {
@@ -30,14 +31,23 @@ declare_entry(ParameterTree &tree, ParameterNode &node, const std::string &key,
   return entry;
 }
 
+/** A text for a message: its begin, if it is long. */
+std::string
+in_short(const std::string &text)
+{
+  constexpr std::size_t most = 200;
+  if (text.empty())
+    return "(nothing)";
+  return text.size() <= most ? text : text.substr(0, most) + " ...";
+}
+
 void
 add_wrong_value(ParameterTree &tree, const ParameterNode &node, const ParameterEntry &entry,
                 const std::string &hint)
 {
-  tree.add_problem(node, entry.position,
-                   '"' + entry.key + "\" = " + (entry.text.empty() ? "(nothing)" : entry.text)
-                     + " is not allowed: " + entry.allowed,
-                   hint);
+  tree.add_problem(
+    node, entry.position,
+    '"' + entry.key + "\" = " + in_short(entry.text) + " is not allowed: " + entry.allowed, hint);
 }
 
 template <typename T>
@@ -81,16 +91,17 @@ std::vector<std::string>
 checked_names(ParameterTree &tree, const ParameterNode &node, const ParameterEntry &entry)
 {
   std::vector<std::string> names;
+  std::set<std::string>    seen;
+  const std::string        where = "\"" + entry.key + "\" = " + in_short(entry.text);
   for (const auto &name : split_list(entry.text))
     {
-      const std::string where = "\"" + entry.key + "\" = " + entry.text;
       if (name.empty())
         tree.add_problem(node, entry.position, where + " has an empty name",
                          "remove the surplus comma or write the missing name");
       else if (name.find_first_of("/=") != std::string::npos)
         tree.add_problem(node, entry.position, where + ": '" + name + "' cannot be a name",
                          "use names without '/' and '='");
-      else if (std::find(names.begin(), names.end(), name) != names.end())
+      else if (!seen.insert(name).second)
         tree.add_problem(node, entry.position, where + " lists '" + name + "' more than once",
                          "give each its own name");
       else
@@ -186,12 +197,15 @@ ParameterSection::named(const std::string &key, const std::string &documentation
   return sections;
 }
 
-void
-ParameterSection::error(const std::string &key, const std::string &what,
-                        const std::string &remedy) const
+namespace
 {
-  const ParameterEntry *entry   = node->find_entry(key);
-  const ParameterNode  *section = node->find_section(key);
+/** What is to be said of `key` in `node`. */
+ParameterProblem
+problem_of(const ParameterNode &node, const std::string &key, const std::string &what,
+           const std::string &remedy)
+{
+  const ParameterEntry *entry   = node.find_entry(key);
+  const ParameterNode  *section = node.find_section(key);
   SourcePosition        position;
   std::string           subject;
   if (!key.empty())
@@ -199,11 +213,28 @@ ParameterSection::error(const std::string &key, const std::string &what,
   if (entry != nullptr && entry->is_set)
     {
       position = entry->position;
-      subject += " = " + (entry->text.empty() ? "(nothing)" : entry->text);
+      subject += " = " + in_short(entry->text);
     }
   else if (section != nullptr)
     position = section->position;
-  tree->add_problem(*node, position, subject.empty() ? what : subject + ": " + what, remedy);
+  return {position, node.path(), subject.empty() ? what : subject + ": " + what, remedy};
+}
+} // namespace
+
+void
+ParameterSection::error(const std::string &key, const std::string &what,
+                        const std::string &remedy) const
+{
+  const ParameterProblem problem = problem_of(*node, key, what, remedy);
+  tree->add_problem(*node, problem.position, problem.what, problem.remedy);
+}
+
+void
+ParameterSection::warning(const std::string &key, const std::string &what,
+                          const std::string &remedy) const
+{
+  const ParameterProblem problem = problem_of(*node, key, what, remedy);
+  tree->add_warning(*node, problem.position, problem.what, problem.remedy);
 }
 
 bool

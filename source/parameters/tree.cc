@@ -1,3 +1,4 @@
+#include <scree/base/exceptions.h>
 #include <scree/parameters/tree.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@ SourcePosition::text() const
 ParameterNode::ParameterNode(const std::string &name, ParameterNode *parent)
     : name(name)
     , parent(parent)
+    , depth(parent == nullptr ? 0 : parent->depth + 1)
 {
 }
 
@@ -28,19 +30,15 @@ ParameterNode::path() const
 ParameterEntry *
 ParameterNode::find_entry(const std::string &key) const
 {
-  for (const auto &entry : entries)
-    if (entry->key == key)
-      return entry.get();
-  return nullptr;
+  const auto found = entry_of_key.find(key);
+  return found == entry_of_key.end() ? nullptr : found->second;
 }
 
 ParameterNode *
 ParameterNode::find_section(const std::string &section_name) const
 {
-  for (const auto &section : sections)
-    if (section->name == section_name)
-      return section.get();
-  return nullptr;
+  const auto found = section_of_name.find(section_name);
+  return found == section_of_name.end() ? nullptr : found->second;
 }
 
 ParameterEntry &
@@ -50,6 +48,7 @@ ParameterNode::get_entry(const std::string &key)
     return *entry;
   entries.push_back(std::make_unique<ParameterEntry>());
   entries.back()->key = key;
+  entry_of_key[key]   = entries.back().get();
   return *entries.back();
 }
 
@@ -59,7 +58,17 @@ ParameterNode::get_section(const std::string &section_name)
   if (ParameterNode *section = find_section(section_name))
     return *section;
   sections.push_back(std::make_unique<ParameterNode>(section_name, this));
+  section_of_name[section_name] = sections.back().get();
   return *sections.back();
+}
+
+ParameterNode &
+ParameterNode::get_written_section(const std::string &section_name, const std::string &where)
+{
+  require(depth < largest_depth, where,
+          "sections are nested more than " + std::to_string(largest_depth) + " deep",
+          "close sections with 'end' before others begin");
+  return get_section(section_name);
 }
 
 namespace
@@ -107,6 +116,21 @@ void
 ParameterTree::add_problem(const ParameterNode &node, const SourcePosition &position,
                            const std::string &what, const std::string &remedy)
 {
+  add(problems, node, position, what, remedy);
+}
+
+void
+ParameterTree::add_warning(const ParameterNode &node, const SourcePosition &position,
+                           const std::string &what, const std::string &remedy)
+{
+  add(warnings, node, position, what, remedy);
+}
+
+void
+ParameterTree::add(std::vector<ParameterProblem> &list, const ParameterNode &node,
+                   const SourcePosition &position, const std::string &what,
+                   const std::string &remedy)
+{
   if (is_documentation)
     return;
 
@@ -118,9 +142,7 @@ ParameterTree::add_problem(const ParameterNode &node, const SourcePosition &posi
     found.file = name;
 
   const std::string path = node.path();
-  for (const auto &problem : problems)
-    if (problem.path == path && problem.what == what)
-      return;
-  problems.push_back({found, path, what, remedy});
+  if (recorded.emplace(path, what).second)
+    list.push_back({found, path, what, remedy});
 }
 } // namespace scree

@@ -11,6 +11,16 @@ using namespace dealii;
 
 namespace
 {
+/** Adds to a sum and to what its rounding lost: the error does not grow with the number of terms
+ * (Neumaier, Z. Angew. Math. Mech. 54, 1974). */
+void
+add_compensated(const double value, double &sum, double &lost)
+{
+  const double next = sum + value;
+  lost += std::abs(sum) >= std::abs(value) ? (sum - next) + value : (value - next) + sum;
+  sum = next;
+}
+
 // Every quantity of a point is a row of numbers in a message.
 double *
 numbers(double &value)
@@ -152,16 +162,21 @@ template <int dim>
 std::vector<PointTotals<dim>>
 MaterialPoints<dim>::totals(const unsigned int n_bodies) const
 {
-  std::vector<PointTotals<dim>> result(n_bodies);
+  std::vector<PointTotals<dim>> result(n_bodies), lost(n_bodies);
   for (std::size_t i = 0; i < size(); ++i)
     {
       AssertIndexRange(body[i], n_bodies);
       PointTotals<dim> &sum = result[body[i]];
       ++sum.count;
-      sum.mass += mass[i];
-      sum.initial_volume += initial_volume[i];
+      add_compensated(mass[i], sum.mass, lost[body[i]].mass);
+      add_compensated(initial_volume[i], sum.initial_volume, lost[body[i]].initial_volume);
       sum.volume += volume(i);
       sum.momentum += mass[i] * velocity[i];
+    }
+  for (unsigned int b = 0; b < n_bodies; ++b)
+    {
+      result[b].mass += lost[b].mass;
+      result[b].initial_volume += lost[b].initial_volume;
     }
   return result;
 }

@@ -92,7 +92,7 @@ is_stalled(const std::vector<double> &residuals)
 void
 NewtonParameters::declare(const ParameterSection &section)
 {
-  section.entry("Relative tolerance", relative_tolerance, positive_number(),
+  section.entry("Relative tolerance", relative_tolerance, dealii::Patterns::Double(1e-16, 0.01),
                 "Converged when the residual is this small relative to the forces [-].");
   section.entry("Absolute tolerance", absolute_tolerance, dealii::Patterns::Double(0.),
                 "Added to the relative tolerance times the forces [force].");

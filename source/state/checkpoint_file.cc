@@ -80,10 +80,6 @@ read_contents(const std::string &file_name, const unsigned int dimension)
       || std::memcmp(bytes.data(), mark, sizeof mark) != 0)
     throw Damage{"is not a checkpoint of scree"};
   std::memcpy(&header, bytes.data(), sizeof header);
-  require(header.format == format, file_name,
-          "is of format " + std::to_string(header.format) + ", this version reads format "
-            + std::to_string(format),
-          "go on with the version of scree that wrote it (see log.txt), or start the run anew");
   if (bytes.size() != sizeof header + header.size + sizeof crc)
     throw Damage{"is incomplete: it has " + std::to_string(bytes.size()) + " of "
                  + std::to_string(sizeof header + header.size + sizeof crc) + " bytes"};
@@ -91,10 +87,13 @@ read_contents(const std::string &file_name, const unsigned int dimension)
   std::memcpy(&crc, bytes.data() + n, sizeof crc);
   if (crc != checksum(bytes, n))
     throw Damage{"is damaged: its checksum is wrong"};
-  require(header.dimension == dimension, file_name,
-          "is of a run in " + std::to_string(header.dimension) + " dimensions, not "
-            + std::to_string(dimension),
-          "use the parameters.prm that the run wrote");
+  if (header.format != format)
+    throw Damage{"is of format " + std::to_string(header.format)
+                 + ", but this version of scree reads format " + std::to_string(format)
+                 + " (log.txt tells which version wrote it)"};
+  if (header.dimension != dimension)
+    throw Damage{"is of a run in " + std::to_string(header.dimension) + " dimensions, not "
+                 + std::to_string(dimension) + " (use the parameters.prm that the run wrote)"};
   return bytes.substr(sizeof header, header.size);
 }
 } // namespace

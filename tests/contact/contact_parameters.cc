@@ -89,5 +89,47 @@ TEST(ContactParameters, WrongLawsAreExplained)
   expect_contains(message("set Names = f\nsubsection f\n set Law = tied\n set Bodies = block\nend"),
                   "two names");
 }
+TEST(ContactParameters, LawsForNoPairAreRefused)
+{
+  const std::string two = message("set Names = first, second\n"
+                                  "subsection first\n set Friction coefficient = 0.1\nend\n"
+                                  "subsection second\n set Law = frictionless\nend\n");
+  expect_contains(two, "Contact/first");
+  expect_contains(two, "the law 'first' is used for no pair of bodies: 'second'");
+  expect_contains(two, "block and grain 1");
+  const std::string self = message("set Names = self\nsubsection self\n set Law = stick\n"
+                                   " set Bodies = wall, wall\nend\n");
+  expect_contains(self, "the law 'self' fits no two bodies");
+  expect_contains(self, "not in contact with itself");
+  // One pair is enough.
+  EXPECT_EQ(message("set Names = default, grains\n"
+                    "subsection default\n set Friction coefficient = 0.1\nend\n"
+                    "subsection grains\n set Bodies = *, grain*\n set Law = stick\nend\n"),
+            "");
+}
+
+TEST(ContactParameters, PenaltiesAndShiftHaveBounds)
+{
+  for (const std::string value : {"1e-300", "1e-3", "1e300"})
+    expect_contains(message("set Names = a\nsubsection a\n set Law = stick\n"
+                            " set Normal penalty factor = "
+                            + value + "\nend\n"),
+                    "Normal penalty factor");
+  expect_contains(message("set Shift = 1e6"), "Shift");
+}
+
+TEST(ContactParameters, ManyStarsAreMatchedAtOnce)
+{
+  ContactPairParameters law;
+  std::string           stars;
+  for (unsigned int i = 0; i < 40; ++i)
+    stars += "*a";
+  law.bodies = {stars, "b*d"};
+  EXPECT_TRUE(law.matches(std::string(40, 'a'), "bd"));
+  EXPECT_TRUE(law.matches("b c d", std::string(60, 'a')));
+  EXPECT_FALSE(law.matches(std::string(100, 'a') + "b", "bcd"));
+  EXPECT_FALSE(law.matches(std::string(40, 'a'), "bdc"));
+}
+
 } // namespace
 } // namespace scree

@@ -137,6 +137,47 @@ TEST(Shapes, ConcavePolygon)
   });
 }
 
+// A star of many sides: distances by the tree are those of all sides, in a time that does not grow
+// with their square.
+TEST(Shapes, PolygonOfManySides)
+{
+  const auto star = [](const unsigned int n) {
+    std::vector<Point<2>> vertices;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double angle = 2. * M_PI * i / n, r = 1. + 0.3 * std::sin(5. * angle) + 0.1 * (i % 2);
+        vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+      }
+    return vertices;
+  };
+  const auto    vertices = star(57);
+  const Polygon polygon(vertices);
+  for (unsigned int k = 0; k < 2000; ++k)
+    {
+      const Point<2> x(1.6 * std::sin(1.3 * k), 1.6 * std::cos(2.9 * k));
+      double         distance = 1e300, winding = 0.;
+      for (unsigned int i = 0; i < vertices.size(); ++i)
+        {
+          const Point<2> &a = vertices[i], &b = vertices[(i + 1) % vertices.size()];
+          const double    s    = std::clamp((x - a) * (b - a) / (b - a).norm_square(), 0., 1.);
+          distance             = std::min(distance, x.distance(a + s * (b - a)));
+          const Tensor<1, 2> p = a - x, q = b - x;
+          winding += std::atan2(p[0] * q[1] - p[1] * q[0], p * q);
+        }
+      EXPECT_NEAR(polygon.signed_distance(x), std::abs(winding) > 1. ? -distance : distance, 1e-14);
+    }
+  const auto many = star(20000);
+  EXPECT_FALSE(Polygon::crosses_itself(many));
+  auto crossed = many;
+  std::swap(crossed[100], crossed[15000]);
+  EXPECT_TRUE(Polygon::crosses_itself(crossed));
+  const Polygon fine(many);
+  double        sum = 0.;
+  for (unsigned int k = 0; k < 100000; ++k)
+    sum += fine.signed_distance(Point<2>(1.6 * std::sin(1.3 * k), 1.6 * std::cos(2.9 * k)));
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
 TEST(Shapes, PolygonsThatCrossThemselvesAreRecognised)
 {
   EXPECT_FALSE(Polygon::crosses_itself({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));

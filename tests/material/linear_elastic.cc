@@ -237,6 +237,18 @@ TEST(MaterialParameters, EveryDeformableLawHasItsModuliAtZeroStrain)
     }
 }
 
+TEST(MaterialParameters, ConstantsThatLeaveNoDigitsAreRefused)
+{
+  const std::string elastic = "set Poisson's ratio = 0.3\nset Young's modulus = ";
+  EXPECT_NE(message_for(elastic + "1e-300").find("between 1e-30 and 1e30"), std::string::npos);
+  EXPECT_NE(message_for(elastic + "1e300").find("between 1e-30 and 1e30"), std::string::npos);
+  const std::string unit = "set Young's modulus = 1\nset Poisson's ratio = ";
+  EXPECT_NE(message_for(unit + "0.4999999999999999").find("nearer to 0.5"), std::string::npos);
+  EXPECT_NE(message_for(unit + "-0.9999999999").find("nearer to -1"), std::string::npos);
+  for (const std::string value : {"0.49999", "0.4999", "-0.999", "0"})
+    EXPECT_EQ(message_for(unit + value), "");
+}
+
 TEST(MaterialParameters, MakeMaterialRefusesUnsetConstants)
 {
   EXPECT_THROW(make_material<2>(MaterialParameters()), UserError);

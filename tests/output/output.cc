@@ -106,6 +106,32 @@ TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)
   EXPECT_EQ(content(name), "a,b\n1,2\n3,4\n5,6\n7,8\n");
 }
 
+TEST(CsvTable, AFileThatIsNoLongerThereIsAnError)
+{
+  const std::string name    = testing::TempDir() + "scree_removed.csv";
+  const auto        message = [](CsvTable &table) -> std::string {
+    try
+      {
+        table.add_row({1., 2.});
+      }
+    catch (const UserError &error)
+      {
+        return error.what();
+      }
+    return "";
+  };
+  for (const bool is_replaced : {false, true})
+    {
+      CsvTable table(name, {"a", "b"});
+      EXPECT_EQ(message(table), "");
+      std::remove(name.c_str());
+      if (is_replaced)
+        std::ofstream(name) << "another\n";
+      EXPECT_NE(message(table).find("was removed or replaced"), std::string::npos);
+    }
+  std::remove(name.c_str());
+}
+
 TEST(VonMises, PlaneStrainAndThreeDimensions)
 {
   SymmetricTensor<2, 2> plane;

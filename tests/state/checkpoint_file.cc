@@ -5,6 +5,8 @@
 #include <scree/base/exceptions.h>
 #include <scree/state/checkpoint_file.h>
 
+#include <boost/crc.hpp>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -129,6 +131,11 @@ TEST_F(CheckpointFile, ErrorsSayWhatIsWrong)
   write_checkpoint_file(directory, 2, "contents");
   std::string other_format = bytes();
   other_format[16]         = 99;
+  other_format.resize(other_format.size() - 4);
+  boost::crc_32_type crc;
+  crc.process_bytes(other_format.data(), other_format.size());
+  const std::uint32_t checksum = crc.checksum();
+  other_format.append(reinterpret_cast<const char *>(&checksum), sizeof checksum);
   put(other_format);
   expect_error("is of format 99");
 }
@@ -158,5 +165,22 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
   write_checkpoint_file(directory, 2, "third");
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
 }
+TEST_F(CheckpointFile, WhateverByteIsDamagedTheOneBeforeIsUsed)
+{
+  write_checkpoint_file(directory, 2, "first");
+  write_checkpoint_file(directory, 2, "second");
+  const std::string good = bytes(), older = bytes("checkpoint.old");
+  for (std::size_t i = 0; i < good.size(); ++i)
+    {
+      std::string bad = good;
+      bad[i] ^= 4;
+      put(bad);
+      put(older, "checkpoint.old");
+      const auto read = read_checkpoint_file(directory, 2);
+      EXPECT_EQ(read.contents, "first") << "byte " << i;
+      EXPECT_EQ(read.warning.find("format"), std::string::npos) << read.warning;
+    }
+}
+
 } // namespace
 } // namespace scree

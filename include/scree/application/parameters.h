@@ -48,6 +48,7 @@ struct Parameters
   OutputParameters<dim>                     output;
   StudyParameters<dim>                      study;
   std::map<std::string, std::string>        resolved; //!< all entries, value by path
+  std::vector<std::string>                  warnings; //!< what is strange in the input
 
   /** Lets every module visit its section; problems are collected in the file. */
   void declare(ParameterFile &file);

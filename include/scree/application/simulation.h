@@ -124,9 +124,24 @@ private:
                                             const dealii::Point<dim> &x) const;
   /** The start of the step plus the last increment, scaled to the step. */
   typename Equilibrium<dim>::Vector predicted(const double time) const;
+  // What a converged step must satisfy, simulation_checks.cc.
+  /** Forces and moments of every body; @throws UserError if they are not in balance */
+  std::vector<BodyBalance<dim>> require_balance(const typename Equilibrium<dim>::Vector &u) const;
+  [[noreturn]] void             throw_out_of_balance(const BodyBalance<dim> &balance,
+                                                     const bool              is_force) const;
+  /** Tells once of each body that it turned too far for linear kinematics. */
+  void warn_of_rotations(const std::vector<BodyBalance<dim>>     &balances,
+                         const typename Equilibrium<dim>::Vector &u);
+  /** What is prescribed, in the first step, half way and at the end, is possible and finite. */
+  void require_prescribable();
+  /** Of the material points. @throws UserError if some left the box and must not */
+  void require_inside_box() const;
   // Checkpoints, simulation_checkpoint.cc.
   /** Writes a checkpoint if one is due after an accepted step; a failure is told in the log. */
-  void            save_if_due();
+  void save_if_due();
+  void save();
+  /** Ends a run that a signal asked to end, with a checkpoint (collective). @throws Interrupted */
+  void            end_if_interrupted();
   Checkpoint<dim> collect() const;
   FixedState<dim> collect_fixed() const;
   /** Goes to the state of a checkpoint; the problem is set up. */
@@ -218,10 +233,11 @@ private:
   bool                                 overlap_is_resolved = false;
   bool                                 is_transient        = false; //!< K has more artificial mass
   std::set<std::pair<unsigned int, unsigned int>>
-    warned_pairs;                         //!< told once; (b, b): body b at the box,
-                                          //!< (b, a) with b > a: under-resolved
-  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;     //!< per pair
+    warned_pairs;                              //!< told once; (b, b): body b at the box,
+                                               //!< (b, a) with b > a: under-resolved
+  std::set<unsigned int>     warned_rotations; //!< bodies, told once
+  std::vector<bool>          was_closed;       //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status;      //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;          //!< per pair
 };
 } // namespace scree

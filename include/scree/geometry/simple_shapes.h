@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/geometry/polygon_sides.h>
 #include <scree/geometry/shape.h>
 
 #include <deal.II/base/tensor.h>
@@ -139,6 +140,7 @@ public:
 
 private:
   std::vector<dealii::Point<2>> vertices;
+  PolygonSides                  sides;
 };
 
 /** |x/a|^n + |y/b|^n (+ |z/c|^n) < 1, n >= 1. The level set `(sum_i |x_i/a_i|^n)^{1/n} - 1` times

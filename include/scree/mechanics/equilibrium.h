@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/mechanics/body_balance.h>
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/mechanics/free_bodies.h>
 #include <scree/mechanics/rigid_bodies.h>
@@ -158,6 +159,10 @@ public:
   /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
   std::vector<Resultant<dim>> resultants(const Vector &u) const;
 
+  /** What acts on each deformable body at `u`, that of the last residual(), added up (collective).
+   */
+  std::vector<BodyBalance<dim>> balance(const Vector &u) const;
+
   /** "body.condition", integrals first, then strong ones. */
   std::vector<std::string> condition_names() const;
 
@@ -226,8 +231,10 @@ private:
   bool             is_driven         = true; //!< forces act on rigid bodies
   double           start_time        = 0.;   //!< of the step on a moving geometry
   double           mass_factor       = default_mass_factor;
-  double           largest_stiffness = 0.; //!< largest diagonal entry of A
-  double           displacement_norm = 0.; //!< |u| of the last residual()
+  double           largest_stiffness = 0.;            //!< largest diagonal entry of A
+  Vector           diagonal;                          //!< of A
+  Vector           scratch;                           //!< for one function at a time
+  double           stiffness_times_displacement = 0.; //!< |diagonal u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies                      current_energies;

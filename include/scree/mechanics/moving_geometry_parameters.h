@@ -29,9 +29,10 @@ struct MovingGeometryParameters
   DeformationTransfer deformation          = DeformationTransfer::reference_map;
   double              support              = 1.75; //!< of moving least squares, in cells
   IncrementMotion     motion               = IncrementMotion::reference_map;
-  double              slope_tolerance      = 0.1; //!< of ||grad phi| - 1| before reinitialisation
-  double              largest_motion       = 2.;  //!< of a body in a step, in finest cells
-  double              largest_slip         = 1.;  //!< of contact in a step, in finest cells
+  double              slope_tolerance      = 0.1;   //!< of ||grad phi| - 1| before reinitialisation
+  double              largest_motion       = 2.;    //!< of a body in a step, in finest cells
+  double              largest_slip         = 1.;    //!< of contact in a step, in finest cells
+  bool                may_leave_box        = false; //!< whether bodies may be cut off by the box
 
   void declare(ParameterSection &section);
 };

@@ -30,7 +30,10 @@ public:
   /** Appends a row with as many values as there are columns, 12 significant digits. */
   void add_row(const std::vector<double> &values);
 
-  /** Writes what is not written yet; returns whether nothing is left. */
+  /**
+   * Writes what is not written yet; returns whether nothing is left.
+   * @throws UserError if the file is no longer there under its name
+   */
   bool flush();
 
   /** Of all rows of the file. */
@@ -40,6 +43,9 @@ public:
   }
 
 private:
+  void require_in_place() const;
+
+  std::string file_name;
   int         file; //!< descriptor
   std::size_t n_columns;
   std::size_t row_count = 0;

@@ -71,6 +71,10 @@ public:
   std::vector<std::string> columns(const Equilibrium<dim>   &equilibrium,
                                    const ContactPoints<dim> &contact) const;
 
+  /** @throws UserError if two of columns() have the same name */
+  void require_distinct_columns(const Equilibrium<dim>   &equilibrium,
+                                const ContactPoints<dim> &contact) const;
+
   /** The values of columns() at the last write_history() and write_probes(), on all processes. */
   std::vector<double> last_values() const;
 
@@ -81,7 +85,7 @@ public:
   /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
   void gather_motion(const MotionRecord<dim> &motion);
 
-  /** Writes the gathered row. */
+  /** Writes the gathered row. @throws UserError if it has a number that is not finite */
   void write_history();
 
   /** Body VTU and lines; whether all was written, known to the first process. */

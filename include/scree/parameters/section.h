@@ -83,6 +83,10 @@ public:
    */
   void error(const std::string &key, const std::string &what, const std::string &remedy = "") const;
 
+  /** The same for what is possible but hardly meant: it is told, and the run goes on. */
+  void warning(const std::string &key, const std::string &what,
+               const std::string &remedy = "") const;
+
   /**
    * Whether the user gave the entry `key` a value other than its default (asked after entry(); the
    * resolved file, which contains every entry, then gives the same answers).

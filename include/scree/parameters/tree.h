@@ -1,7 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -42,8 +45,14 @@ struct ParameterNode
 {
   ParameterNode(const std::string &name, ParameterNode *parent);
 
+  /** Sections within sections; an input needs fewer than ten. */
+  static constexpr unsigned int largest_depth = 100;
+
   std::string    name;
   ParameterNode *parent;
+
+  /** 0 for the root. */
+  unsigned int depth;
 
   /** Of the `subsection` line; the file is empty if the user did not write the section. */
   SourcePosition position;
@@ -72,12 +81,19 @@ struct ParameterNode
   ParameterEntry &get_entry(const std::string &key);
   ParameterNode  &get_section(const std::string &section_name);
 
+  /** The same for what somebody wrote at `where`. @throws UserError if it is nested too deeply */
+  ParameterNode &get_written_section(const std::string &section_name, const std::string &where);
+
   /** What modules declared, in the order of declaration. */
   std::vector<const ParameterEntry *> declared_entries() const;
   std::vector<const ParameterNode *>  declared_sections() const;
+
+private:
+  std::unordered_map<std::string, ParameterEntry *> entry_of_key;
+  std::unordered_map<std::string, ParameterNode *>  section_of_name;
 };
 
-/** Something the user has to change. */
+/** Something the user has to change, or should know. */
 struct ParameterProblem
 {
   SourcePosition position;
@@ -99,10 +115,22 @@ struct ParameterTree
   ParameterNode                 root;
   unsigned int                  n_declared = 0;
   std::vector<ParameterProblem> problems;
+  std::vector<ParameterProblem> warnings;
 
   /** Records a problem once, in `node` at `position` or, if that is empty, at the section. */
   void add_problem(const ParameterNode &node, const SourcePosition &position,
                    const std::string &what, const std::string &remedy = "");
+
+  /** The same for what the user should know but need not change. */
+  void add_warning(const ParameterNode &node, const SourcePosition &position,
+                   const std::string &what, const std::string &remedy = "");
+
+private:
+  void add(std::vector<ParameterProblem> &list, const ParameterNode &node,
+           const SourcePosition &position, const std::string &what, const std::string &remedy);
+
+  /** Path and text of what was recorded. */
+  std::set<std::pair<std::string, std::string>> recorded;
 };
 
 /** Reads the file `path` into the empty `tree`; throws what ParameterFile::read() promises. */

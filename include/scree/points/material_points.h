@@ -10,7 +10,10 @@
 
 namespace scree
 {
-/** Sums over the material points of a body; what a step without loss leaves unchanged. */
+/**
+ * Sums over the material points of a body; what a step without loss leaves unchanged. Mass and
+ * initial volume are exact but for the rounding of one sum, and of one per process.
+ */
 template <int dim>
 struct PointTotals
 {

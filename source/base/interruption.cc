@@ -1,0 +1,86 @@
+#include <scree/base/interruption.h>
+
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <unistd.h>
+
+namespace scree
+{
+namespace
+{
+constexpr std::array<int, 4> handled = {{SIGINT, SIGTERM, SIGHUP, SIGPIPE}};
+
+volatile std::sig_atomic_t      first_signal = 0, tells_user = 0;
+std::array<struct sigaction, 4> previous;
+
+/** Only what is safe at any moment of a program. */
+void
+note(const int signal)
+{
+  if (first_signal == 0)
+    {
+      first_signal = signal;
+      if (signal == SIGPIPE || tells_user == 0)
+        return;
+      const char text[] = "\nscree: ends after this iteration, with a checkpoint; a second signal "
+                          "ends it at once\n";
+      const ssize_t n   = write(STDERR_FILENO, text, sizeof text - 1);
+      static_cast<void>(n);
+      return;
+    }
+  if (signal == SIGPIPE)
+    return;
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+} // namespace
+
+Interruption::Interruption(const bool tells)
+{
+  first_signal = 0;
+  tells_user   = tells ? 1 : 0;
+  struct sigaction action;
+  std::memset(&action, 0, sizeof action);
+  action.sa_handler = note;
+  action.sa_flags   = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (unsigned int i = 0; i < handled.size(); ++i)
+    {
+      sigaction(handled[i], nullptr, &previous[i]);
+      // What the caller of the program wants ignored (nohup) stays so.
+      if (previous[i].sa_handler != SIG_IGN)
+        sigaction(handled[i], &action, nullptr);
+    }
+}
+
+Interruption::~Interruption()
+{
+  for (unsigned int i = 0; i < handled.size(); ++i)
+    sigaction(handled[i], &previous[i], nullptr);
+}
+
+int
+Interruption::signal()
+{
+  return first_signal;
+}
+
+std::string
+signal_name(const int signal)
+{
+  switch (signal)
+    {
+    case SIGINT:
+      return "SIGINT";
+    case SIGTERM:
+      return "SIGTERM";
+    case SIGHUP:
+      return "SIGHUP";
+    case SIGPIPE:
+      return "SIGPIPE";
+    default:
+      return std::to_string(signal);
+    }
+}
+} // namespace scree

@@ -1,0 +1,168 @@
+#include <scree/mechanics/equilibrium.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// The balance of each body: what its history tells must add up to zero.
+namespace scree
+{
+namespace
+{
+/** Sums over the own nodes of a body, for one reduction: see the functions below. */
+template <int dim>
+struct NodeSums
+{
+  double                 n = 0.;
+  dealii::Tensor<1, dim> x, u, force; //!< x relative to the centre of the body's box
+  dealii::Tensor<2, dim> x_x;         //!< sum of x x^T
+  dealii::Tensor<1, 3>   x_u, moment; //!< sums of x cross u, x cross f; moment about the origin
+  double                 scale = 0.;
+
+  static constexpr unsigned int n_values = 2 + 3 * dim + dim * dim + 6;
+
+  template <typename F>
+  void for_each(const F &f)
+  {
+    f(n);
+    f(scale);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        f(x[d]);
+        f(u[d]);
+        f(force[d]);
+        for (unsigned int e = 0; e < dim; ++e)
+          f(x_x[d][e]);
+      }
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        f(x_u[d]);
+        f(moment[d]);
+      }
+  }
+};
+
+template <int dim>
+void
+sum_over_processes(std::vector<NodeSums<dim>> &sums, const MPI_Comm communicator)
+{
+  std::vector<double> values;
+  for (auto &sum : sums)
+    sum.for_each([&](const double value) { values.push_back(value); });
+  dealii::Utilities::MPI::sum(values, communicator, values);
+  auto value = values.begin();
+  for (auto &sum : sums)
+    sum.for_each([&](double &entry) { entry = *value++; });
+}
+
+/** |omega| of the u = a + omega cross x that fits best at the nodes. */
+template <int dim>
+double
+rotation_of(const NodeSums<dim> &sums)
+{
+  const dealii::Tensor<1, dim> mean    = sums.x / sums.n;
+  const dealii::Tensor<1, 3>   angular = sums.x_u - moment_of<dim>(mean, sums.u);
+  const dealii::Tensor<2, dim> C       = sums.x_x - dealii::outer_product(mean, sums.x);
+  if constexpr (dim == 2)
+    return std::abs(angular[2]) / trace(C);
+  else
+    {
+      dealii::Tensor<2, dim> inertia = -C;
+      for (unsigned int d = 0; d < dim; ++d)
+        inertia[d][d] += trace(C);
+      return (invert(inertia) * angular).norm();
+    }
+}
+} // namespace
+
+template <int dim>
+std::vector<BodyBalance<dim>>
+Equilibrium<dim>::balance(const Vector &u) const
+{
+  Vector body_forces(contact_forces), held(internal_forces);
+  body_forces = 0.;
+  bulk.add_body_forces(body_forces, time);
+  body_forces.compress(dealii::VectorOperation::add);
+  reactions(held);
+
+  std::vector<NodeSums<dim>> sums(bodies.size());
+  std::vector<bool>          is_known(fields.owned().n_elements(), false);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell     = fields.cells()[a];
+      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
+      NodeSums<dim>    &sum      = sums[cell.body];
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        {
+          const DofIndex node = fields.nodes(a)[i];
+          if (!fields.owned().is_element(node) || fields.hanging_constraints().is_constrained(node))
+            continue;
+          const auto place = fields.owned().index_within_set(node);
+          if (is_known[place])
+            continue;
+          is_known[place] = true;
+          const dealii::Point<dim> position
+            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
+          const dealii::Tensor<1, dim> x = position - bodies[cell.body].box.center();
+          dealii::Tensor<1, dim>       displacement, contact_force, body_force;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              displacement[d]  = u(node + d);
+              contact_force[d] = contact_forces(node + d);
+              body_force[d]    = body_forces(node + d);
+            }
+          sum.n += 1.;
+          sum.x += x;
+          sum.u += displacement;
+          sum.x_x += dealii::outer_product(x, x);
+          sum.x_u += moment_of<dim>(dealii::Point<dim>(x), displacement);
+          sum.force += contact_force + body_force;
+          sum.moment += moment_of<dim>(position, contact_force + body_force);
+          sum.scale += contact_force.norm() + body_force.norm();
+        }
+    }
+  for (const auto &region : boundary_terms.regions())
+    for (unsigned int q = 0; q < region.points.size(); ++q)
+      sums[region.body].scale
+        += region.points[q].weight * boundary_terms.traction(region, q, ghosted, time).norm();
+  for (const auto &unknown : supports.unknowns())
+    sums[supports.conditions()[unknown.support].first].scale += std::abs(held(unknown.index));
+  sum_over_processes(sums, fields.grid.communicator());
+
+  const auto add = [&](const unsigned int body, const Resultant<dim> &resultant) {
+    sums[body].force += resultant.force;
+    sums[body].moment += resultant.moment;
+  };
+  const auto of_regions = boundary_terms.resultants(ghosted, time);
+  for (unsigned int i = 0; i < of_regions.size(); ++i)
+    add(boundary_terms.regions()[i].body, of_regions[i]);
+  const auto of_supports = supports.resultants(held);
+  for (unsigned int i = 0; i < of_supports.size(); ++i)
+    add(supports.conditions()[i].first, of_supports[i]);
+
+  const std::vector<double>     largest = largest_displacements(u);
+  std::vector<BodyBalance<dim>> result;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid() && sums[b].n > 0.)
+      {
+        const NodeSums<dim>         &sum    = sums[b];
+        const dealii::Tensor<1, dim> mean   = sum.x / sum.n;
+        const dealii::Point<dim>     centre = bodies[b].box.center() + mean;
+        BodyBalance<dim>             balance;
+        balance.body        = b;
+        balance.force       = sum.force;
+        balance.moment      = sum.moment - moment_of<dim>(centre, sum.force);
+        balance.force_scale = sum.scale;
+        balance.n_nodes     = sum.n;
+        balance.radius      = std::sqrt(trace(sum.x_x) / sum.n - mean.norm_square());
+        balance.rotation    = rotation_of(sum);
+        balance.largest_u   = largest[b];
+        result.push_back(balance);
+      }
+  return result;
+}
+
+template std::vector<BodyBalance<2>> Equilibrium<2>::balance(const Vector &) const;
+template std::vector<BodyBalance<3>> Equilibrium<3>::balance(const Vector &) const;
+} // namespace scree
