@@ -37,7 +37,7 @@ std::array<Tensor<1, dim>, dim - 1>
 tangents(const Tensor<1, dim> &normal)
 {
   if constexpr (dim == 2)
-    return {Tensor<1, 2>({-normal[1], normal[0]})};
+    return {{Tensor<1, 2>({-normal[1], normal[0]})}};
   else
     {
       const unsigned int smallest
@@ -47,7 +47,7 @@ tangents(const Tensor<1, dim> &normal)
       Tensor<1, 3> s = Point<3>::unit_vector(smallest);
       s -= normal[smallest] * normal;
       s /= s.norm();
-      return {s, cross_product_3d(normal, s)};
+      return {{s, cross_product_3d(normal, s)}};
     }
 }
 
