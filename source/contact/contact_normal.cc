@@ -51,8 +51,7 @@ struct Side
        const unsigned int body, const dealii::Point<dim> &x, const double size)
   {
     const Lattice<dim> &lattice = bodies[body].level_set;
-    const bool          tells   = distances.is_known(body, x);
-    is_exact                    = tells && distances.is_exact(body);
+    is_exact                    = distances.is_known(body, x);
     if (is_exact)
       {
         const double             reach = std::abs(distances.value(body, x)) + 1.5 * size;
@@ -62,8 +61,8 @@ struct Side
       }
     else
       is_kinked = !is_smooth(lattice, x);
-    is_known = tells || !is_kinked;
-    if (is_exact || (is_kinked && tells))
+    is_known = is_exact || !is_kinked;
+    if (is_exact)
       normal = distances.normal(body, x);
     else if (!is_kinked)
       {

@@ -9,11 +9,29 @@
 
 namespace scree
 {
+namespace
+{
+/** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
+template <int dim>
+std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>>
+nodal_gradients(const LagrangeBasis<dim> &basis, const GridCell<dim> &cell, const Lattice<dim> &a,
+                const Lattice<dim> &b)
+{
+  std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> result;
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    {
+      const dealii::Point<dim> x = cell.lower + cell.size * dealii::Tensor<1, dim>(basis.node(i));
+      result[i] = a.value_and_gradient(x, 3).second - b.value_and_gradient(x, 3).second;
+    }
+  return result;
+}
+} // namespace
+
 template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift, const ExactDistances<dim> &distances)
+                const double shift, const ExactDistances<dim> &distances, const bool nodal_normals)
 {
   const LagrangeBasis<dim>                   &basis = fields.basis;
   const BackgroundGrid<dim>                  &grid  = fields.grid;
@@ -55,6 +73,9 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
             continue;
           const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
           const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
+          std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> gradients;
+          if (nodal_normals)
+            gradients = nodal_gradients<dim>(basis, cell, a, b);
           for (unsigned int q = 0; q < surface.points.size(); ++q)
             {
               basis.evaluate_values(surface.points[q], shape.data());
@@ -66,8 +87,16 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
                 continue;
               const dealii::Point<dim> x
                 = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
-              const auto normal = contact_normal(distances, bodies, pairs[p].a, pairs[p].b, x,
-                                                 cell.size, surface.normals[q]);
+              dealii::Tensor<1, dim> normal;
+              if (nodal_normals)
+                {
+                  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+                    normal += shape[i] * gradients[i];
+                  normal /= normal.norm();
+                }
+              else
+                normal = contact_normal(distances, bodies, pairs[p].a, pairs[p].b, x, cell.size,
+                                        surface.normals[q]);
               surface_points.push_back(
                 {p, x, normal, surface.weights[q], gap, cell.size, normal, gap});
             }
@@ -79,7 +108,7 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
 #define SCREE_INSTANTIATE(dim)                                                       \
   template std::vector<ContactPoint<dim>> contact_surface(                           \
     const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
-    const std::vector<ContactPair> &, const double, const ExactDistances<dim> &);
+    const std::vector<ContactPair> &, const double, const ExactDistances<dim> &, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

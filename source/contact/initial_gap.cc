@@ -40,9 +40,13 @@ InitialGaps<dim>::apply(const std::array<dealii::Tensor<1, dim>, 2> &displacemen
 {
   const ContactPair           &pair = pairs[point.pair];
   const ContactPairParameters &law  = pair.law;
-  const auto initial_level_set      = [&](const unsigned int body) -> const Lattice<dim>      &{
-    return bodies[body].initial_level_set ? *bodies[body].initial_level_set
-                                               : bodies[body].level_set;
+  // Near kinks the point's own gap comes from the shapes.
+  const auto initial_distance = [&](const unsigned int body, const dealii::Point<dim> &X) {
+    if (point.is_exact)
+      return bodies[body].shape->signed_distance(X);
+    return (bodies[body].initial_level_set ? *bodies[body].initial_level_set
+                                           : bodies[body].level_set)
+      .value(X, degree);
   };
   double gap = 0., adjusted = 0.;
   for (const auto &u : displacement)
@@ -51,8 +55,7 @@ InitialGaps<dim>::apply(const std::array<dealii::Tensor<1, dim>, 2> &displacemen
       // Where nothing has moved, the point knows its gap on coarser cells too.
       const double at_start = u.norm_square() == 0.
                                 ? point.start_gap
-                                : initial_level_set(pair.a).value(X, degree)
-                                    + initial_level_set(pair.b).value(X, degree);
+                                : initial_distance(pair.a, X) + initial_distance(pair.b, X);
       gap += 0.5 * at_start;
       if (std::abs(at_start) <= law.adjust && !point.is_beyond)
         adjusted += 0.5 * at_start;

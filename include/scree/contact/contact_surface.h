@@ -36,13 +36,15 @@ struct ContactPoint
 
 /**
  * The unbiased contact surface S = {phi_a = phi_b <= shift} of all pairs, cut from the background
- * cells of this process (method.md section 8), with the normals of contact_normal().
+ * cells of this process (method.md section 8).
  *
  * @param shift bound on phi on the contact surface [L]
+ * @param nodal_normals interpolates normals from gradients at the nodes, for surfaces that slide on
+ *                      a moving geometry; else they are those of contact_normal()
  */
 template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift, const ExactDistances<dim> &distances);
+                const double shift, const ExactDistances<dim> &distances, const bool nodal_normals);
 } // namespace scree
