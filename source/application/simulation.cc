@@ -40,16 +40,17 @@ Simulation<dim>::set_up()
     bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(), lattice_margin());
   }
   for (unsigned int b = 0; b < bodies.size() && is_moving(); ++b)
-    if (!bodies[b].is_rigid())
-      {
-        bodies[b].initial_level_set = std::make_shared<const Lattice<dim>>(bodies[b].level_set);
+    {
+      bodies[b].initial_level_set = std::make_shared<const Lattice<dim>>(bodies[b].level_set);
+      if (!bodies[b].is_rigid())
         bodies[b].law
           = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
-      }
+    }
 
   if (is_moving())
     require_movable(bodies);
   pairs = find_pairs();
+  require_distinct(bodies, pairs);
   discretise();
   was_closed.assign(contact->points().size(), false);
   results = std::make_unique<Results<dim>>(directory, bodies, parameters.output.probes);
@@ -119,9 +120,9 @@ Simulation<dim>::set_up_equilibrium()
   equilibrium.reset();
   {
     const Timings::Scope scope(timings, "contact search");
-    contact = std::make_unique<ContactPoints<dim>>(*fields, *level_set_nodes, bodies, pairs,
-                                                   parameters.contact.shift * grid->finest_size(),
-                                                   prediction());
+    contact = std::make_unique<ContactPoints<dim>>(
+      *fields, *level_set_nodes, bodies, pairs, parameters.contact.shift * grid->finest_size(),
+      prediction(), step_start ? &step_start->displacement() : nullptr);
   }
   {
     const Timings::Scope scope(timings, "linear assembly");
@@ -184,6 +185,7 @@ Simulation<dim>::run()
         step_control.accept(record.newton_iterations);
         write_results();
         report_step(wall.wall_time());
+        report_under_resolved();
         if (is_moving())
           move_geometry();
         results->write_history();

@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/contact/contact_reach.h>
 #include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -129,6 +130,21 @@ Simulation<dim>::report_step(const double wall_time)
 
 template <int dim>
 void
+Simulation<dim>::report_under_resolved()
+{
+  std::string names;
+  for (const unsigned int p : under_resolved_pairs(*contact, communicator))
+    if (warned_pairs.insert({pairs[p].b, pairs[p].a}).second)
+      names += (names.empty() ? "" : ", ") + pairs[p].name;
+  if (!names.empty())
+    log.line("Warning: under-resolved contact, closed at less than "
+             + std::to_string(dim == 2 ? 3 : 9) + " points: " + names
+             + ". Its force follows from balance, its pressure and stiffness from the grid; "
+               "refine there (Grid/Refinement = contact, Finest level)");
+}
+
+template <int dim>
+void
 Simulation<dim>::report_end(const double wall_time)
 {
   require(results->flush(), directory,
@@ -211,6 +227,7 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   template void Simulation<dim>::check();                                     \
   template void Simulation<dim>::plot() const;                                \
   template void Simulation<dim>::report_step(const double);                   \
+  template void Simulation<dim>::report_under_resolved();                     \
   template void Simulation<dim>::report_end(const double);                    \
   template void Simulation<dim>::throw_slides_away(const unsigned int) const; \
   template void Simulation<dim>::count_flips();                               \

@@ -215,9 +215,11 @@ gathered_rows(const ContactPoints<dim> &contact, const MPI_Comm communicator)
       const auto              &response = contact.responses()[i];
       if (response.status == ContactStatus::open && contact.gap(i) > point.cell_size)
         continue;
-      const ContactPair  &pair = contact.pairs()[point.pair];
-      std::vector<double> row  = {double(pair.a), double(pair.b)};
-      const auto          add  = [&row](const Tensor<1, dim> &vector) {
+      const ContactPair &pair = contact.pairs()[point.pair];
+      if (pair.law.law == ContactLaw::tied && !point.is_glued)
+        continue;
+      std::vector<double> row = {double(pair.a), double(pair.b)};
+      const auto          add = [&row](const Tensor<1, dim> &vector) {
         row.insert(row.end(), vector.begin_raw(), vector.end_raw());
       };
       add(point.position);
@@ -314,6 +316,8 @@ recall(const std::vector<ContactPoint<dim>> &points, const std::vector<ContactPa
       const ContactPoint<dim> &point   = points[i];
       const ContactPair       &pair    = pairs[point.pair];
       const double             minimum = 1e-12 * point.cell_size * point.cell_size;
+      if (pair.law.law == ContactLaw::tied && !point.is_glued)
+        continue;
       search.find(
         {pair.a, pair.b}, point, true,
         [minimum](const double square, const double ratio) {

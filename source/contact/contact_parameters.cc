@@ -1,4 +1,5 @@
 #include <scree/contact/contact_parameters.h>
+#include <scree/parameters/expression_entry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ ContactPairParameters::declare(ParameterSection &section)
                 "Two names of bodies, in any order; * stands for any text: a default is '*, *'.");
   section.entry("Law", law, contact_law_names,
                 "none, frictionless, coulomb (friction), stick (no sliding under pressure), tied "
-                "(glued).");
+                "(glued where the bodies touch at the start; elsewhere they do not interact).");
   section.entry("Friction coefficient", friction_coefficient, dealii::Patterns::Double(0.),
                 "Coulomb's mu; no dimension.");
   section.entry("Normal penalty factor", normal_factor, positive_number(),
@@ -42,6 +43,17 @@ ContactPairParameters::declare(ParameterSection &section)
   section.entry("Penalty modulus", penalty_modulus, positive_number(),
                 "E of the penalties; default: from the moduli of the bodies. Needed between two "
                 "rigid bodies [force/L^2].");
+  section.entry("Adjust", adjust, dealii::Patterns::Double(0.),
+                "Gaps and overlaps at the start up to this length count as zero, without strain; "
+                "larger ones stay as they are [L].");
+  section.entry("Tied gap", tied_gap, dealii::Patterns::Double(0.),
+                "Tied: glued are points where the gap at the start, after Adjust, is not larger "
+                "than this; default: a tenth of the cell [L].");
+  section.entry("Where", where,
+                "Tied: expression of x, y, z in the initial configuration that selects the glued "
+                "part (not zero).");
+  path = section.path();
+  check_expression<3>(section, "Where", where, 1);
   if (bodies.size() != 2)
     section.error("Bodies", "needs two names", "for example Bodies = block, *");
   if (law == ContactLaw::coulomb && std::isnan(friction_coefficient))
@@ -51,6 +63,12 @@ ContactPairParameters::declare(ParameterSection &section)
     section.error("Friction coefficient",
                   "the law " + name_of(contact_law_names, law) + " has no friction coefficient",
                   "remove it, or set Law = coulomb");
+  if (law != ContactLaw::tied && !std::isnan(tied_gap))
+    section.error("Tied gap", "the law " + name_of(contact_law_names, law) + " glues nothing",
+                  "remove it, or set Law = tied");
+  if (law != ContactLaw::tied && where != "1")
+    section.error("Where", "the law " + name_of(contact_law_names, law) + " glues nothing",
+                  "remove it, or set Law = tied");
 }
 
 bool

@@ -1,10 +1,9 @@
 #include <scree/base/exceptions.h>
 #include <scree/contact/contact_points.h>
-#include <scree/level_set/closest_point.h>
+#include <scree/contact/exact_distance.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace scree
 {
@@ -32,141 +31,23 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
                                   const std::vector<Body<dim>>   &bodies,
                                   const std::vector<ContactPair> &pairs, const double shift,
-                                  const Prediction &prediction)
+                                  const Prediction &prediction, const Vector *start_displacement)
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   find_rigid_partners(fields, bodies);
-  const bool moves = std::any_of(bodies.begin(), bodies.end(),
-                                 [](const Body<dim> &body) { return body.law != nullptr; });
-  contact_points
-    = contact_surface(fields, level_set_nodes, bodies, pairs, shift, moves || prediction);
-  find_stencils(fields, bodies, prediction);
+  const ExactDistances<dim> distances(bodies, fields.grid.finest_size());
+  const bool                moves = std::any_of(bodies.begin(), bodies.end(),
+                                                [](const Body<dim> &body) { return body.law != nullptr; });
+  contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift, distances,
+                                   moves || prediction);
+  find_stencils(fields, bodies, prediction, distances,
+                InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
+                start_displacement);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
-}
-
-template <int dim>
-void
-ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
-                                        const std::vector<Body<dim>> &bodies)
-{
-  std::map<unsigned int, unsigned int> partner_of_body;
-  rigid_sides_of_pair.resize(contact_pairs.size());
-  for (unsigned int p = 0; p < contact_pairs.size(); ++p)
-    for (const auto &[b, sign] :
-         {std::make_pair(contact_pairs[p].a, -1.), std::make_pair(contact_pairs[p].b, 1.)})
-      {
-        const Body<dim> &body = bodies[b];
-        if (!body.is_rigid())
-          continue;
-        if (partner_of_body.emplace(b, rigid_partners.size()).second)
-          {
-            const RigidPose<dim> start(*body.rigid, body.pose);
-            rigid_partners.push_back(
-              {b, body.rigid, fields.rigid_unknown(b), {}, start, start, {}});
-            for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-              if (body.rigid->is_free(m))
-                rigid_partners.back().free_components.push_back(m);
-          }
-        rigid_sides_of_pair[p].push_back({partner_of_body[b], sign});
-      }
-}
-
-template <int dim>
-void
-ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                  const Prediction &prediction)
-{
-  const auto                            box = fields.grid.box();
-  std::vector<unsigned int>             of_body;
-  std::vector<dealii::Point<dim>>       projected;
-  std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
-  for (unsigned int i = 0; i < contact_points.size(); ++i)
-    {
-      ContactPoint<dim>        &point = contact_points[i];
-      const ContactPair        &pair  = contact_pairs[point.pair];
-      const dealii::Point<dim> &x     = point.position;
-      dealii::Tensor<1, dim>    slide;
-      if (prediction)
-        {
-          const ExpectedSlide<dim> expected = expected_slide(point, pair, prediction);
-          point.initial_gap += (point.normal - expected.normal) * expected.jump;
-          point.normal = expected.normal;
-          slide        = expected.slide;
-        }
-      for (const auto &[body, start] :
-           {std::make_pair(pair.a, x + 0.5 * slide), std::make_pair(pair.b, x - 0.5 * slide)})
-        if (!bodies[body].is_rigid())
-          {
-            dealii::Point<dim> foot
-              = project(bodies[body].level_set, start, fields.basis.degree).point;
-            for (unsigned int d = 0; d < dim; ++d)
-              foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
-            of_body.push_back(body);
-            projected.push_back(foot);
-          }
-      for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
-        {
-          const RigidPartner &partner = rigid_partners[side.partner];
-          RigidFoot          &foot    = feet[i][side.number()];
-          foot.X     = partner.start_pose.initial_position(project(bodies[partner.body].level_set,
-                                                                   x - 0.5 * side.sign * slide,
-                                                                   fields.basis.degree)
-                                                             .point);
-          foot.start = partner.start_pose.displacement(foot.X);
-        }
-    }
-  const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
-
-  std::vector<ContactPoint<dim>> kept;
-  auto                           stencil = stencils.begin();
-  for (unsigned int i = 0; i < contact_points.size(); ++i)
-    {
-      const ContactPair         &pair = contact_pairs[contact_points[i].pair];
-      std::map<DofIndex, double> jump, sides;
-      bool                       is_found = true;
-      for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
-        if (!bodies[body].is_rigid())
-          {
-            is_found &= !stencil->empty();
-            for (const auto &[node, weight] : *stencil)
-              {
-                jump[node] += sign * weight;
-                sides[node] = sign;
-              }
-            ++stencil;
-          }
-      if (!is_found)
-        continue; // the surface ends here: one of the bodies is clipped by the box
-      std::vector<DofIndex> nodes;
-      for (const auto &[node, weight] : jump)
-        nodes.push_back(node);
-      const bool same
-        = !groups.empty() && groups.back().n_nodes == nodes.size()
-          && kept.back().pair == contact_points[i].pair
-          && std::equal(nodes.begin(), nodes.end(), group_nodes.begin() + groups.back().first_node);
-      if (same)
-        ++groups.back().n_points;
-      else
-        {
-          groups.push_back({static_cast<unsigned int>(kept.size()), 1,
-                            static_cast<unsigned int>(group_nodes.size()),
-                            static_cast<unsigned int>(nodes.size()),
-                            static_cast<unsigned int>(stencil_weights.size())});
-          group_nodes.insert(group_nodes.end(), nodes.begin(), nodes.end());
-          for (const auto &[node, side] : sides)
-            group_sides.push_back(side);
-        }
-      for (const auto &[node, weight] : jump)
-        stencil_weights.push_back(weight);
-      kept.push_back(contact_points[i]);
-      if (!rigid_partners.empty())
-        contact_feet.push_back(feet[i]);
-    }
-  contact_points = kept;
 }
 
 template <int dim>
@@ -256,14 +137,15 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               jump += side.sign * motion;
               sum += motion;
             }
-          const ContactPoint<dim> &point = contact_points[p];
-          const auto              &law   = contact_pairs[point.pair].law;
-          contact_jumps[p]               = jump;
-          contact_means[p]               = 0.5 * sum;
-          contact_responses[p]           = contact_response<dim>(
-            law.law, law.friction_coefficient,
+          const ContactPoint<dim> &point    = contact_points[p];
+          const auto              &law      = contact_pairs[point.pair].law;
+          const bool               is_apart = law.law == ContactLaw::tied && !point.is_glued;
+          contact_jumps[p]                  = jump;
+          contact_means[p]                  = 0.5 * sum;
+          contact_responses[p]              = contact_response<dim>(
+            is_apart ? ContactLaw::none : law.law, law.friction_coefficient,
             {point.initial_gap, point.normal, jump, history.jump[p], history.tau[p],
-                       history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
+             history.pressure[p], eps_n(p), eps_t(p), 1e-8 * point.cell_size});
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
               contact_feet[p][side.number()].X

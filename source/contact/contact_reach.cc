@@ -16,8 +16,8 @@ require_contact_within_reach(const ContactPoints<dim> &contact, const double shi
   const double largest_gap = 0.8 * 2. * shift;
   unsigned int n_beyond    = 0;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
-    n_beyond
-      += contact.points()[i].initial_gap > largest_gap && contact.responses()[i].pressure > 0.;
+    n_beyond += contact.points()[i].initial_gap > largest_gap && contact.gap(i) < 0.
+                && contact.responses()[i].pressure > 0.;
   require(dealii::Utilities::MPI::sum(n_beyond, communicator) == 0, "Contact/Shift",
           "bodies touch where they were farther apart than " + short_number(largest_gap)
             + " at the start, which is where the contact surface ends",
@@ -46,12 +46,68 @@ pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<
   return result;
 }
 
+template <int dim>
+void
+require_distinct(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs)
+{
+  constexpr double    largest_part = 0.9;
+  std::vector<double> depths(bodies.size(), -1.);
+  const auto          depth = [&](const unsigned int body) {
+    const auto &values = bodies[body].level_set.values();
+    if (depths[body] < 0.)
+      depths[body] = -*std::min_element(values.begin(), values.end());
+    return depths[body];
+  };
+  for (const ContactPair &pair : pairs)
+    {
+      const Lattice<dim>             &a = bodies[pair.a].level_set, &b = bodies[pair.b].level_set;
+      const dealii::BoundingBox<dim> &of_b = bodies[pair.b].box;
+      if (of_b.get_neighbor_type(bodies[pair.a].box) == dealii::NeighborType::not_neighbors)
+        continue;
+      double overlap = 0.;
+      for (std::size_t i = 0; i < a.values().size(); ++i)
+        if (-a.values()[i] > overlap)
+          {
+            const dealii::Point<dim> x = a.node(a.index(i));
+            if (of_b.point_inside(x))
+              overlap = std::max(overlap, std::min(-a.values()[i], -b.value(x, 1)));
+          }
+      if (overlap < largest_part * std::min(depth(pair.a), depth(pair.b)))
+        continue;
+      throw UserError(bodies[pair.b].path + "/Shape",
+                      "the bodies '" + bodies[pair.a].name + "' and '" + bodies[pair.b].name
+                        + "' coincide, or one lies inside the other: they overlap by "
+                        + short_number(2. * overlap) + ", so there is no surface between them",
+                      "move them apart, cut the hole into the outer one (Type = difference), or "
+                      "set Law = none for this pair");
+    }
+}
+
+template <int dim>
+std::vector<unsigned int>
+under_resolved_pairs(const ContactPoints<dim> &contact, const MPI_Comm communicator)
+{
+  constexpr unsigned int    enough = dim == 2 ? 3 : 9;
+  std::vector<unsigned int> n_closed(contact.pairs().size()), result;
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    n_closed[contact.points()[i].pair] += contact.responses()[i].pressure != 0.;
+  dealii::Utilities::MPI::sum(n_closed, communicator, n_closed);
+  for (unsigned int p = 0; p < n_closed.size(); ++p)
+    if (n_closed[p] > 0 && n_closed[p] < enough)
+      result.push_back(p);
+  return result;
+}
+
 #define SCREE_INSTANTIATE(dim)                                                                   \
   template void require_contact_within_reach(const ContactPoints<dim> &, const double,           \
                                              const MPI_Comm);                                    \
   template std::vector<std::pair<unsigned int, unsigned int>> pairs_that_may_have_met(           \
     const std::vector<Body<dim>> &, const std::vector<ContactPair> &, const ContactParameters &, \
-    const std::vector<double> &);
+    const std::vector<double> &);                                                                \
+  template void                      require_distinct(const std::vector<Body<dim>> &,            \
+                                                      const std::vector<ContactPair> &);         \
+  template std::vector<unsigned int> under_resolved_pairs(const ContactPoints<dim> &,            \
+                                                          const MPI_Comm);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -1,5 +1,7 @@
+#include <scree/contact/contact_normal.h>
 #include <scree/contact/contact_surface.h>
-#include <scree/discretization/cut_quadrature.h>
+#include <scree/contact/exact_distance.h>
+#include <scree/contact/kinked_surface.h>
 
 #include <algorithm>
 #include <array>
@@ -29,11 +31,12 @@ template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift, const bool nodal_normals)
+                const double shift, const ExactDistances<dim> &distances, const bool nodal_normals)
 {
   const LagrangeBasis<dim>                   &basis = fields.basis;
   const BackgroundGrid<dim>                  &grid  = fields.grid;
   CutCellRules<dim>                           rules(basis);
+  KinkedSurface<dim>                          kinked(distances, bodies, basis);
   std::vector<ContactPoint<dim>>              surface_points;
   std::array<double, max_nodes_per_cell<dim>> phi_a, phi_b, psi, scaled, shape;
   for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -50,6 +53,12 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
           const double at_a = a.value(centre, 1), at_b = b.value(centre, 1);
           if (std::max(at_a, at_b) > shift + 2. * reach || std::abs(at_a - at_b) > 4. * reach)
             continue;
+          if (kinked.concerns(pairs[p], cell))
+            {
+              const auto points = kinked.points(p, pairs[p], cell, 2. * shift);
+              surface_points.insert(surface_points.end(), points.begin(), points.end());
+              continue;
+            }
           level_set_nodes.cell_values(c, a, phi_a.data());
           level_set_nodes.cell_values(c, b, phi_b.data());
           unsigned int n_negative = 0;
@@ -74,17 +83,20 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
               // A contour through a vertex leaves points of no length in the cells that touch it.
               if (gap > 2. * shift || surface.weights[q] < negligible)
                 continue;
-              dealii::Tensor<1, dim> normal = surface.normals[q];
+              const dealii::Point<dim> x
+                = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
+              dealii::Tensor<1, dim> normal;
               if (nodal_normals)
                 {
-                  normal = 0.;
                   for (unsigned int i = 0; i < basis.n_nodes; ++i)
                     normal += shape[i] * gradients[i];
+                  normal /= normal.norm();
                 }
-              normal /= normal.norm();
+              else
+                normal = contact_normal(distances, bodies, pairs[p].a, pairs[p].b, x, cell.size,
+                                        surface.normals[q]);
               surface_points.push_back(
-                {p, cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]), normal,
-                 surface.weights[q], gap, cell.size, normal});
+                {p, x, normal, surface.weights[q], gap, cell.size, normal, gap});
             }
         }
     }
@@ -94,7 +106,7 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
 #define SCREE_INSTANTIATE(dim)                                                       \
   template std::vector<ContactPoint<dim>> contact_surface(                           \
     const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
-    const std::vector<ContactPair> &, const double, const bool);
+    const std::vector<ContactPair> &, const double, const ExactDistances<dim> &, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -144,9 +144,11 @@ private:
   NewtonResult                      solve_equilibrium(typename Equilibrium<dim>::Vector &u);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
    * where that pays. */
-  LinearSolveResult   solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
-                                          LinearSolver::Vector &du);
-  void                report_step(const double wall_time);
+  LinearSolveResult solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
+                                        LinearSolver::Vector &du);
+  void              report_step(const double wall_time);
+  /** Tells of contacts at very few points, once per pair. */
+  void                report_under_resolved();
   void                report_end(const double wall_time);
   [[noreturn]] void   throw_slides_away(const unsigned int body) const;
   std::vector<double> contact_force_on_bodies() const;
@@ -194,9 +196,10 @@ private:
   Predictor<dim>                       predictor;      //!< on a moving geometry
   std::vector<double> largest_contact_force;           //!< on each body in this step's iterations
   std::set<std::pair<unsigned int, unsigned int>>
-                             warned_pairs; //!< told once; (b, b): body b at the box
-  std::vector<bool>          was_closed;   //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status;  //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;      //!< per pair
+    warned_pairs;                         //!< told once; (b, b): body b at the box,
+                                          //!< (b, a) with b > a: under-resolved
+  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;     //!< per pair
 };
 } // namespace scree

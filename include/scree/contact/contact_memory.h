@@ -38,7 +38,7 @@ struct ContactMemory
 
 /**
  * The points that are closed, or open by at most a cell, moved by the last evaluation: the latter
- * carry zero, so that tractions end where contact ended. Collective.
+ * carry zero, so that tractions end where contact ended; of tied pairs the glued ones. Collective.
  */
 template <int dim>
 ContactMemory<dim> remember(const ContactPoints<dim> &contact, const MPI_Comm communicator);

@@ -20,6 +20,12 @@ struct ContactPairParameters
   double                   tangential_factor    = 10.; //!< c_t in eps_t = c_t E/h
   /** E of the penalties [force/L^2]; NaN: from the materials */
   double penalty_modulus = std::numeric_limits<double>::quiet_NaN();
+  /** Initial gaps and overlaps up to this are moved to zero without strain [L]. */
+  double adjust = 0.;
+  /** Tied: points are glued up to this initial gap [L]; NaN: a tenth of their cell. */
+  double      tied_gap = std::numeric_limits<double>::quiet_NaN();
+  std::string where    = "1"; //!< tied: expression that selects the glued part
+  std::string path;           //!< of the section, for messages
 
   void declare(ParameterSection &section);
 

@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_law.h>
 #include <scree/contact/expected_slide.h>
+#include <scree/contact/initial_gap.h>
 #include <scree/solver/condensed_solver.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -53,13 +54,20 @@ public:
   using Prediction = IncrementPrediction<dim>;
 
   /**
+   * The gap at the start of the run, which decides what is glued and what Adjust takes off, is
+   * that of the initial level sets at x - u_n, u_n taken at x_a and x_b. It belongs to the
+   * material, so nothing needs to be remembered.
+   *
    * @param shift bound on phi on the contact surface [L]
    * @param prediction empty: no sliding is expected
-   * @throws UserError if two rigid bodies have no penalty modulus
+   * @param start_displacement u_n of the deformable bodies at the owned unknowns; null: zero
+   * @throws UserError if two rigid bodies have no penalty modulus, or the contact surface ends
+   * before the gaps that a law adjusts or glues
    */
   ContactPoints(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift, const Prediction &prediction = {});
+                const double shift, const Prediction &prediction = {},
+                const Vector *start_displacement = nullptr);
 
   const std::vector<ContactPoint<dim>> &points() const
   {
@@ -144,7 +152,8 @@ public:
 private:
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                     const Prediction &prediction);
+                     const Prediction &prediction, const ExactDistances<dim> &distances,
+                     const InitialGaps<dim> &initial_gaps, const Vector *start_displacement);
 
   /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
   void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,

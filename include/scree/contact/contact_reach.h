@@ -28,4 +28,21 @@ template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>>
 pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                         const ContactParameters &parameters, const std::vector<double> &motion);
+
+/**
+ * Bodies that coincide or lie inside one another have no surface between them.
+ *
+ * @throws UserError if the deepest point of the overlap of a pair lies as deep as nine tenths of
+ * the deepest point of one of the bodies
+ */
+template <int dim>
+void require_distinct(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs);
+
+/**
+ * Pairs whose contact is closed at some, but at less than 3^(dim - 1) points in the last
+ * evaluation: too few for the shape of a pressure. Collective.
+ */
+template <int dim>
+std::vector<unsigned int> under_resolved_pairs(const ContactPoints<dim> &contact,
+                                               const MPI_Comm            communicator);
 } // namespace scree

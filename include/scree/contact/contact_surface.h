@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_parameters.h>
+#include <scree/contact/exact_distance.h>
 #include <scree/discretization/fields.h>
 
 #include <string>
@@ -27,6 +28,10 @@ struct ContactPoint
   double                 initial_gap;       //!< g_0 = phi_a + phi_b of degree k
   double                 cell_size;         //!< h of the penalties
   dealii::Tensor<1, dim> start_normal = {}; //!< of the surface at the start of a step
+  double                 start_gap    = 0.; //!< phi_a + phi_b at the start of a step
+  bool                   is_glued     = false; //!< of a tied pair, closed when the run began
+  bool                   is_exact     = false; //!< near a kink, from exact distances
+  bool                   is_beyond = false; //!< an edge: the surfaces there do not face each other
 };
 
 /**
@@ -34,12 +39,12 @@ struct ContactPoint
  * cells of this process (method.md section 8).
  *
  * @param shift bound on phi on the contact surface [L]
- * @param nodal_normals interpolates normals from gradients at the nodes, for surfaces that slide;
- *                      else they are those of the cut, which corners do not disturb
+ * @param nodal_normals interpolates normals from gradients at the nodes, for surfaces that slide on
+ *                      a moving geometry; else they are those of contact_normal()
  */
 template <int dim>
 std::vector<ContactPoint<dim>>
 contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                const double shift, const bool nodal_normals);
+                const double shift, const ExactDistances<dim> &distances, const bool nodal_normals);
 } // namespace scree

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <scree/contact/contact_surface.h>
+#include <scree/contact/exact_distance.h>
+#include <scree/discretization/cut_quadrature.h>
+
+#include <optional>
+#include <vector>
+
+namespace scree
+{
+/**
+ * The contact surface in cells where a body has edges or corners. The interpolant of degree k of a
+ * kinked distance moves the end of a face by up to a cell; here the cell is halved towards the
+ * kinks, 8 times (2D) or 4 times (3D), with the exact distances in each part. The points of all
+ * parts that lie in the same quadrant of the cell, have similar sizes and the same normals of both
+ * bodies are joined to one, with the sum of their weights and the mean of their places.
+ */
+template <int dim>
+class KinkedSurface
+{
+public:
+  KinkedSurface(const ExactDistances<dim> &distances, const std::vector<Body<dim>> &bodies,
+                const LagrangeBasis<dim> &basis);
+
+  /** Whether the cell needs it and the exact distances are known. */
+  bool concerns(const ContactPair &pair, const GridCell<dim> &cell) const;
+
+  /** The points in a cell, without those whose gap exceeds `largest_gap` [L]. */
+  std::vector<ContactPoint<dim>> points(const unsigned int number, const ContactPair &pair,
+                                        const GridCell<dim> &cell, const double largest_gap);
+
+private:
+  /** A point of a part of the cell. */
+  struct Piece
+  {
+    dealii::Point<dim>     x;
+    double                 weight;
+    dealii::Tensor<1, dim> n_a, n_b; //!< out of the bodies
+    unsigned int           group;    //!< by quadrant and size of the part
+  };
+  void divide(const ContactPair &pair, const GridCell<dim> &cell, const dealii::Point<dim> &lower,
+              const unsigned int depth);
+
+  const ExactDistances<dim>    &distances;
+  const std::vector<Body<dim>> &bodies;
+  const LagrangeBasis<dim>     &basis;
+  CutCellRules<dim>             rules;
+  std::vector<Piece>            pieces;
+};
+} // namespace scree

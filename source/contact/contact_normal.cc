@@ -1,0 +1,112 @@
+#include <scree/contact/contact_normal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace scree
+{
+template <int dim>
+bool
+is_smooth(const Lattice<dim> &level_set, const dealii::Point<dim> &x)
+{
+  const auto                  &frame = level_set.frame();
+  typename Lattice<dim>::Index first;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      first[d] = static_cast<int>(std::floor((x[d] - frame.origin[d]) / frame.spacing));
+      if (first[d] - 1 < level_set.lower()[d]
+          || first[d] + 2 >= level_set.lower()[d] + level_set.n_nodes()[d])
+        return false;
+    }
+  double change = 0., unevenness = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int line = 0; line < 1u << (dim - 1); ++line)
+      {
+        typename Lattice<dim>::Index node = first;
+        for (unsigned int e = 0; e < dim - 1; ++e)
+          node[(d + 1 + e) % dim] += line >> e & 1;
+        std::array<double, 4> phi;
+        --node[d];
+        for (double &value : phi)
+          {
+            value = level_set(node);
+            ++node[d];
+          }
+        const double first_bend  = (phi[0] - 2. * phi[1] + phi[2]) / frame.spacing,
+                     second_bend = (phi[1] - 2. * phi[2] + phi[3]) / frame.spacing;
+        change                   = std::max(change, std::abs(first_bend + second_bend));
+        unevenness               = std::max(unevenness, std::abs(first_bend - second_bend));
+      }
+  return change <= 1.2 && unevenness <= 0.02 + 0.3 * change;
+}
+
+namespace
+{
+/** What a body tells of the normal at a point. */
+template <int dim>
+struct Side
+{
+  Side(const ExactDistances<dim> &distances, const std::vector<Body<dim>> &bodies,
+       const unsigned int body, const dealii::Point<dim> &x, const double size)
+  {
+    const Lattice<dim> &lattice = bodies[body].level_set;
+    is_exact                    = distances.is_known(body, x);
+    if (is_exact)
+      {
+        const double             reach = std::abs(distances.value(body, x)) + 1.5 * size;
+        dealii::BoundingBox<dim> box({x, x});
+        box.extend(reach);
+        is_kinked = distances.is_kinked(body, box);
+      }
+    else
+      is_kinked = !is_smooth(lattice, x);
+    is_known = is_exact || !is_kinked;
+    if (is_exact)
+      normal = distances.normal(body, x);
+    else if (!is_kinked)
+      {
+        normal = lattice.value_and_gradient(x, 3).second;
+        normal /= normal.norm();
+      }
+  }
+
+  dealii::Tensor<1, dim> normal; //!< out of the body
+  bool                   is_known = false, is_exact = false, is_kinked = false;
+};
+} // namespace
+
+template <int dim>
+dealii::Tensor<1, dim>
+contact_normal(const ExactDistances<dim> &distances, const std::vector<Body<dim>> &bodies,
+               const unsigned int a, const unsigned int b, const dealii::Point<dim> &x,
+               const double size, const dealii::Tensor<1, dim> &of_cut)
+{
+  constexpr double       facing = 0.9; // cosine
+  const Side<dim>        of_a(distances, bodies, a, x, size), of_b(distances, bodies, b, x, size);
+  dealii::Tensor<1, dim> normal = of_cut;
+  if (of_a.is_exact != of_b.is_exact && !(of_a.is_exact ? of_a : of_b).is_kinked)
+    normal = of_a.is_exact ? of_a.normal : -of_b.normal;
+  else if (of_a.is_known && of_b.is_known)
+    {
+      const bool face_each_other
+        = of_a.is_exact && of_b.is_exact && -(of_a.normal * of_b.normal) > facing;
+      normal = face_each_other || of_a.is_kinked == of_b.is_kinked ? of_a.normal - of_b.normal
+               : of_a.is_kinked                                    ? -of_b.normal
+                                                                   : of_a.normal;
+    }
+  else if (of_a.is_known || of_b.is_known)
+    normal = of_a.is_known ? of_a.normal : -of_b.normal;
+  const double length = normal.norm();
+  return length > 0.1 ? normal / length : of_cut / of_cut.norm();
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template bool                   is_smooth(const Lattice<dim> &, const dealii::Point<dim> &); \
+  template dealii::Tensor<1, dim> contact_normal(                                              \
+    const ExactDistances<dim> &, const std::vector<Body<dim>> &, const unsigned int,           \
+    const unsigned int, const dealii::Point<dim> &, const double, const dealii::Tensor<1, dim> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,178 @@
+#include <scree/contact/contact_normal.h>
+#include <scree/contact/kinked_surface.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+/** Values f at the 3^dim nodes of a box are its multilinear interpolant, to `tolerance`. */
+template <int dim>
+bool
+is_multilinear(const LagrangeBasis<dim> &linear, const LagrangeBasis<dim> &quadratic,
+               const std::array<double, max_nodes_per_cell<dim>> &f, const double tolerance)
+{
+  std::array<double, max_nodes_per_cell<dim>> shape;
+  for (unsigned int i = 0; i < quadratic.n_nodes; ++i)
+    {
+      linear.evaluate_values(quadratic.node(i), shape.data());
+      double value = 0.;
+      for (unsigned int v = 0; v < linear.n_nodes; ++v)
+        {
+          // Vertex v of the box among the nodes of degree 2.
+          unsigned int node = 0, stride = 2;
+          for (unsigned int d = 0; d < dim; ++d, stride *= 3)
+            node += stride * (v >> d & 1);
+          value += shape[v] * f[node];
+        }
+      if (std::abs(value - f[i]) > tolerance)
+        return false;
+    }
+  return true;
+}
+
+} // namespace
+
+template <int dim>
+KinkedSurface<dim>::KinkedSurface(const ExactDistances<dim>    &distances,
+                                  const std::vector<Body<dim>> &bodies,
+                                  const LagrangeBasis<dim>     &basis)
+    : distances(distances)
+    , bodies(bodies)
+    , basis(basis)
+    , rules(basis)
+{
+}
+
+template <int dim>
+bool
+KinkedSurface<dim>::concerns(const ContactPair &pair, const GridCell<dim> &cell) const
+{
+  dealii::Point<dim> upper = cell.lower;
+  for (unsigned int d = 0; d < dim; ++d)
+    upper[d] += cell.size;
+  const dealii::Point<dim> centre = cell.lower + 0.5 * (upper - cell.lower);
+  bool                     result = false;
+  for (const unsigned int body : {pair.a, pair.b})
+    {
+      if (!distances.is_known(body, centre))
+        return false;
+      const double distance = std::abs(distances.value(body, centre));
+      if (distance > 2. * cell.size)
+        return false; // nothing touches here
+      // Feet of the cell's points lie in this box.
+      dealii::BoundingBox<dim> box({cell.lower, upper});
+      box.extend(distance + 0.5 * upper.distance(cell.lower));
+      result |= distances.is_kinked(body, box);
+    }
+  return result;
+}
+
+template <int dim>
+void
+KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
+                           const dealii::Point<dim> &lower, const unsigned int depth)
+{
+  constexpr unsigned int          least = dim == 2 ? 2 : 1, most = dim == 2 ? 8 : 4;
+  static const LagrangeBasis<dim> linear(1), quadratic(2);
+  const double                    size = std::ldexp(cell.size, -int(depth));
+  const auto                      place
+    = [&](const dealii::Point<dim> &unit) { return lower + size * dealii::Tensor<1, dim>(unit); };
+  const auto difference = [&](const dealii::Point<dim> &x) {
+    return distances.value(pair.a, x) - distances.value(pair.b, x);
+  };
+  std::array<double, max_nodes_per_cell<dim>> phi_a, phi_b;
+  for (unsigned int i = 0; i < quadratic.n_nodes; ++i)
+    {
+      phi_a[i] = distances.value(pair.a, place(quadratic.node(i)));
+      phi_b[i] = distances.value(pair.b, place(quadratic.node(i)));
+    }
+  const unsigned int middle = quadratic.n_nodes / 2;
+  if (std::abs(phi_a[middle] - phi_b[middle]) > 1.5 * std::sqrt(double(dim)) * size)
+    return; // the surface does not pass
+  const double                   tolerance = 0.02 * size;
+  const dealii::BoundingBox<dim> part({lower, place(linear.node(linear.n_nodes - 1))});
+  if (depth < least
+      || (depth < most
+          && (distances.is_kinked(pair.a, part) || distances.is_kinked(pair.b, part)
+              || !is_multilinear(linear, quadratic, phi_a, tolerance)
+              || !is_multilinear(linear, quadratic, phi_b, tolerance))))
+    {
+      for (unsigned int v = 0; v < 1u << dim; ++v)
+        divide(pair, cell, place(0.5 * linear.node(v)), depth + 1);
+      return;
+    }
+  std::array<double, max_nodes_per_cell<dim>> scaled;
+  unsigned int                                n_negative = 0;
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    {
+      scaled[i] = difference(place(basis.node(i))) / size;
+      if (std::abs(scaled[i]) < 1e-9)
+        scaled[i] = 1e-9;
+      n_negative += scaled[i] < 0.;
+    }
+  if (n_negative == 0 || n_negative == basis.n_nodes)
+    return;
+  const CellPoints<dim> surface = rules.rules(scaled.data(), size).surface;
+  for (unsigned int q = 0; q < surface.points.size(); ++q)
+    {
+      Piece piece{place(surface.points[q]), surface.weights[q], {}, {}, 0};
+      // The smallest points lie next to the kinks: a corner may carry a force alone.
+      piece.group = depth < most / 2 ? 0 : depth < most - 1 ? 1 : 2;
+      piece.n_a   = distances.normal(pair.a, piece.x);
+      piece.n_b   = distances.normal(pair.b, piece.x);
+      for (unsigned int d = 0; d < dim; ++d)
+        piece.group = 2 * piece.group + (piece.x[d] > cell.lower[d] + 0.5 * cell.size);
+      pieces.push_back(piece);
+    }
+}
+
+template <int dim>
+std::vector<ContactPoint<dim>>
+KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
+                           const GridCell<dim> &cell, const double largest_gap)
+{
+  constexpr double same = 0.97, facing = 0.9; // cosines
+  pieces.clear();
+  divide(pair, cell, cell.lower, 0);
+  // Sums over the pieces of a point: x holds the sum of weight x.
+  std::vector<Piece> joined;
+  for (const Piece &piece : pieces)
+    {
+      auto it = std::find_if(joined.begin(), joined.end(), [&](const Piece &other) {
+        return piece.group == other.group
+               && piece.n_a * other.n_a > same * piece.n_a.norm() * other.n_a.norm()
+               && piece.n_b * other.n_b > same * piece.n_b.norm() * other.n_b.norm();
+      });
+      if (it == joined.end())
+        it = joined.insert(joined.end(), {dealii::Point<dim>(), 0., {}, {}, piece.group});
+      it->x += piece.weight * dealii::Tensor<1, dim>(piece.x);
+      it->weight += piece.weight;
+      it->n_a += piece.weight * piece.n_a;
+      it->n_b += piece.weight * piece.n_b;
+    }
+  const double                   negligible = 1e-8 * std::pow(cell.size, dim - 1);
+  std::vector<ContactPoint<dim>> result;
+  for (Piece &point : joined)
+    {
+      if (point.weight < negligible)
+        continue;
+      point.x /= point.weight;
+      const double gap = distances.value(pair.a, point.x) + distances.value(pair.b, point.x);
+      if (gap > largest_gap)
+        continue;
+      const auto normal = contact_normal(distances, bodies, pair.a, pair.b, point.x, cell.size,
+                                         point.n_a - point.n_b);
+      const bool is_beyond
+        = -(point.n_a * point.n_b) < facing * point.n_a.norm() * point.n_b.norm();
+      result.push_back({number, point.x, normal, point.weight, gap, cell.size, normal, gap, false,
+                        true, is_beyond});
+    }
+  return result;
+}
+
+template class KinkedSurface<2>;
+template class KinkedSurface<3>;
+} // namespace scree
