@@ -190,7 +190,16 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   };
   hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
   hooks.freeze    = [&](const bool freeze) { contact->freeze_friction(freeze); };
-  hooks.observe   = [&](const NewtonIteration &iteration) {
+  double pressed = 0., most_pressed = 0.; // total of the contact pressures, now and at most
+  hooks.observe = [&](const NewtonIteration &iteration) {
+    if (has_mass)
+      {
+        pressed = 0.;
+        for (unsigned int i = 0; i < contact->points().size(); ++i)
+          pressed += contact->points()[i].weight * std::abs(contact->responses()[i].pressure);
+        pressed      = dealii::Utilities::MPI::sum(pressed, communicator);
+        most_pressed = std::max(most_pressed, pressed);
+      }
     count_flips();
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
                              + short_number(iteration.residual) + " of "
@@ -198,9 +207,13 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     if (parameters.output.log_iterations)
       log.line("  " + text + ", step length " + short_number(iteration.step_length));
     log.progress(step_control.time() / parameters.time.end_time,
-                   "step " + std::to_string(record.step) + ", " + text);
+                 "step " + std::to_string(record.step) + ", " + text);
   };
-  return Newton(parameters.newton, hooks).solve(u);
+  const NewtonResult result = Newton(parameters.newton, hooks).solve(u);
+  if (result.converged() && pressed < 1e-6 * most_pressed)
+    log.line("Warning: contact carries nothing at time " + short_number(record.time)
+             + ": a body that nothing else holds slides away from what presses it");
+  return result;
 }
 
 template <int dim>
