@@ -137,8 +137,7 @@ BoundaryTerms<dim>::add_internal_forces(const Vector &u, const double time, Vect
                 * transpose(invert(here.increment)) * point.normal;
           else
             {
-              const dealii::Tensor<1, dim> flux
-                = flow_ratio(point.active_cell) * here.piola * point.normal;
+              const dealii::Tensor<1, dim> flux = here.piola * point.normal;
               for (const unsigned int c : condition.components)
                 t[c] = -flux[c];
             }
@@ -187,7 +186,7 @@ BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
           else
             for (const unsigned int c : condition.components)
               for (unsigned int j = 0; j < dim; ++j)
-                dt[c] -= flow_ratio(point.active_cell) * here.tangent[c][j] * point.normal[j];
+                dt[c] -= here.tangent[c][j] * point.normal[j];
           for (unsigned int b = 0; b < n; ++b)
             for (unsigned int i = 0; i < dim; ++i)
               {
@@ -201,8 +200,7 @@ BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
             for (const unsigned int c : condition.components)
               for (unsigned int j = 0; j < n * dim; ++j)
                 {
-                  const double change
-                    = flow_ratio(point.active_cell) * (here.by_volume[j] * point.normal)[c];
+                  const double change = (here.by_volume[j] * point.normal)[c];
                   for (unsigned int a = 0; a < n; ++a)
                     block(a * dim + c, j) -= point.weight * here.shape.value[a] * change;
                 }

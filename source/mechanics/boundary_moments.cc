@@ -10,7 +10,8 @@ template <int dim>
 double
 BoundaryTerms<dim>::flow_ratio(const unsigned int active_cell) const
 {
-  constexpr double smallest = 0.02;
+  // Enough for the flux of a body that is unloaded and elastic again.
+  constexpr double smallest = 0.1;
   return std::max(smallest, bulk.secant_ratio(active_cell));
 }
 

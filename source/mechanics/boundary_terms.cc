@@ -359,7 +359,7 @@ BoundaryTerms<dim>::traction(const BoundaryRegion<dim> &region, const unsigned i
     for (unsigned int d = 0; d < dim; ++d)
       flux += u(nodes[a] + d) * stress[a * dim + d];
   if (start && is_nonlinear(region))
-    flux = flow_ratio(point.active_cell) * stress_vector(region, q, u);
+    flux = stress_vector(region, q, u);
   const bool is_spring = condition.parameters.type == ConditionType::springs;
   for (unsigned int k = 0; k < condition.components.size(); ++k)
     {
