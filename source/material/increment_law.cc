@@ -77,7 +77,7 @@ IncrementLaw<dim>::projected_share() const
 {
   if (std::isfinite(hardening.yield_stress))
     return 1.;
-  return std::max(0., moduli.lambda) / (moduli.lambda + 2. * moduli.mu / dim);
+  return moduli.projected_share(dim);
 }
 
 template <int dim>

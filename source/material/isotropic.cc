@@ -2,6 +2,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -12,6 +13,12 @@ IsotropicModuli
 IsotropicModuli::from_young(const double young, const double poisson)
 {
   return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
+}
+
+double
+IsotropicModuli::projected_share(const unsigned int dim) const
+{
+  return std::max(0., lambda - largest_ratio * mu) / (lambda + 2 * mu / dim);
 }
 
 Tensor<2, 3>

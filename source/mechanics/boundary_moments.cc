@@ -24,7 +24,7 @@ BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const uns
   const auto  &material = *bodies[region.body].material;
   const double mu       = material.shear_modulus();
   return flow_ratio(region.points[q].active_cell)
-         * (2. * mu + std::min(material.lame_lambda(), largest_penalty_lambda * mu))
+         * (2. * mu + std::min(material.lame_lambda(), IsotropicModuli::largest_ratio * mu))
          / material.p_wave_modulus();
 }
 

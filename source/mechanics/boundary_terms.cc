@@ -68,8 +68,10 @@ BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
   fields.basis.evaluate(point.unit_point, shape);
   vectors.resize(fields.basis.n_nodes * dim);
   std::vector<double> divergence;
-  const bool          is_projected
-    = bulk.projected_divergence(point.active_cell, point.unit_point, divergence);
+  const double        projected
+    = bulk.projected_divergence(point.active_cell, point.unit_point, divergence)
+        ? bulk.projected_lambda(region.body)
+        : 0.;
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     {
       const dealii::Tensor<1, dim> g  = scale * shape.gradient[a];
@@ -77,8 +79,9 @@ BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
       for (unsigned int i = 0; i < dim; ++i)
         {
           // sigma = lambda div I + mu (e_i g + g e_i)
-          const double           div    = is_projected ? divergence[a * dim + i] : g[i];
-          dealii::Tensor<1, dim> vector = lambda * div * n + mu * n[i] * g;
+          const double volumetric = (lambda - projected) * g[i]
+                                    + (projected > 0. ? projected * divergence[a * dim + i] : 0.);
+          dealii::Tensor<1, dim> vector = volumetric * n + mu * n[i] * g;
           vector[i] += mu * gn;
           vectors[a * dim + i] = vector;
         }

@@ -22,12 +22,13 @@ Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
 {
   for (const auto &body : bodies)
     {
-      const auto  *material = body.material.get();
-      const double lambda   = material ? std::max(0., material->lame_lambda()) : 0.;
+      const auto *material = body.material.get();
       projected_shares.push_back(
         !material ? 0.
-        : start   ? body.law->projected_share()
-                  : lambda / (material->lame_lambda() + 2. * material->shear_modulus() / dim));
+        : start
+          ? body.law->projected_share()
+          : IsotropicModuli{material->lame_lambda(), material->shear_modulus()}.projected_share(
+            dim));
     }
   set_up_volume_rows();
   secant_ratios.assign(fields.cells().size(), 1.);
@@ -86,9 +87,9 @@ Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<dou
             }
     }
   matrix.reinit(n * dim, n * dim);
-  const bool is_projected = projected_shares[cell.body] > 0.;
-  if (is_projected)
-    add_projected_stiffness(active_cell, lambda, matrix);
+  const double projected = projected_lambda(cell.body);
+  if (projected > 0.)
+    add_projected_stiffness(active_cell, projected, matrix);
   for (unsigned int a = 0; a < n; ++a)
     for (unsigned int b = 0; b < n; ++b)
       {
@@ -97,7 +98,7 @@ Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<dou
           trace += products[k][k][a][b];
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            matrix(a * dim + i, b * dim + j) += (is_projected ? 0. : lambda * products[i][j][a][b])
+            matrix(a * dim + i, b * dim + j) += (lambda - projected) * products[i][j][a][b]
                                                 + mu * products[j][i][a][b]
                                                 + (i == j ? mu * trace : 0.);
       }

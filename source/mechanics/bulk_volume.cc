@@ -158,12 +158,22 @@ Bulk<dim>::add_projected_stiffness(const unsigned int active_cell, const double 
 
 template <int dim>
 double
+Bulk<dim>::projected_lambda(const unsigned int body) const
+{
+  const auto &material = *bodies[body].material;
+  return std::min(std::max(0., material.lame_lambda()),
+                  projected_shares[body]
+                    * (material.lame_lambda() + 2. * material.shear_modulus() / dim));
+}
+
+template <int dim>
+double
 Bulk<dim>::ghost_stiffness(const GhostFace &face) const
 {
   const auto  &material = *bodies[fields.cells()[face.cell].body].material;
   const double mu       = material.shear_modulus();
   const double secant   = std::min(secant_ratios[face.cell], secant_ratios[face.neighbor]);
-  return gamma * (2. * mu + std::min(material.lame_lambda(), largest_penalty_lambda * mu))
+  return gamma * (2. * mu + std::min(material.lame_lambda(), IsotropicModuli::largest_ratio * mu))
          * std::max(smallest_ratio, secant * secant);
 }
 
@@ -300,6 +310,7 @@ Bulk<dim>::projected_increment(const unsigned int active_cell, const dealii::Poi
   template void   Bulk<dim>::set_up_volume_rows();                                                \
   template bool   Bulk<dim>::projected_divergence(const unsigned int, const dealii::Point<dim> &, \
                                                   std::vector<double> &) const;                   \
+  template double Bulk<dim>::projected_lambda(const unsigned int) const;                          \
   template void   Bulk<dim>::add_projected_stiffness(const unsigned int, const double,            \
                                                      dealii::FullMatrix<double> &) const;         \
   template double Bulk<dim>::ghost_stiffness(const GhostFace &) const;                            \

@@ -296,7 +296,7 @@ Equilibrium<dim>::tangent()
 }
 
 template <int dim>
-typename Equilibrium<dim>::Condensation
+Condensation
 Equilibrium<dim>::condensation(const bool only_closed)
 {
   newton_matrix.copy_from(stiffness);

@@ -11,9 +11,13 @@ TEST(IncrementLaw, ShareOfProjectedVolumeAndSecantRatio)
   parameters.law     = "neo-Hookean";
   parameters.young   = 260.;
   parameters.poisson = 0.3;
-  // lambda = 150, mu = 100
-  EXPECT_NEAR(make_increment_law<2>(parameters)->projected_share(), 0.6, 1e-12);
-  EXPECT_NEAR(make_increment_law<3>(parameters)->projected_share(), 150. / (150. + 200. / 3.),
+  // lambda = 150, mu = 100: less than 4 mu
+  EXPECT_EQ(make_increment_law<2>(parameters)->projected_share(), 0.);
+  // lambda = 900, mu = 100
+  parameters.young   = 290.;
+  parameters.poisson = 0.45;
+  EXPECT_NEAR(make_increment_law<2>(parameters)->projected_share(), 0.5, 1e-12);
+  EXPECT_NEAR(make_increment_law<3>(parameters)->projected_share(), 500. / (900. + 200. / 3.),
               1e-12);
   EXPECT_EQ(make_increment_law<2>(parameters)->secant_ratio(1.), 1.);
   parameters.poisson = -0.2;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/contact_history.h>
 #include <scree/contact/contact_law.h>
 #include <scree/contact/expected_slide.h>
 #include <scree/contact/initial_gap.h>
@@ -16,15 +17,6 @@
 
 namespace scree
 {
-/** What a contact point remembers from step to step. */
-template <int dim>
-struct ContactHistory
-{
-  std::vector<dealii::Tensor<1, dim>> tau;      //!< tangential traction on b
-  std::vector<dealii::Tensor<1, dim>> jump;     //!< [[u]]
-  std::vector<double>                 pressure; //!< only tied points need it
-};
-
 /**
  * The unbiased contact surface S = {phi_a = phi_b <= shift} of every candidate pair, cut from the
  * background cells, as a flat list of points with the stencil of their displacement jump

@@ -123,7 +123,7 @@ public:
 
   /**
    * The share of the volumetric stiffness that acts on projected volume changes: all of it if the
-   * law flows, the part of lambda, lambda/(lambda + 2 mu/dim), if it is elastic; never negative.
+   * law flows, that of IsotropicModuli if it is elastic.
    */
   double projected_share() const;
 

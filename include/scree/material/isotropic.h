@@ -12,6 +12,15 @@ struct IsotropicModuli
   double lambda = std::numeric_limits<double>::quiet_NaN(); // Lame's first constant
   double mu     = std::numeric_limits<double>::quiet_NaN(); // shear modulus
 
+  /** lambda counts up to this multiple of mu, that is up to nu = 0.4, where it does not lock. */
+  static constexpr double largest_ratio = 4.;
+
+  /**
+   * What of the volumetric stiffness lambda + 2 mu/dim acts on projected volume changes: the part
+   * of lambda beyond 4 mu, a share from 0 (nu <= 0.4) to 1.
+   */
+  double projected_share(const unsigned int dim) const;
+
   /** `lambda = E nu/((1 + nu)(1 - 2 nu))`, `mu = E/(2 (1 + nu))`. */
   static IsotropicModuli from_young(const double young, const double poisson);
 

@@ -81,6 +81,9 @@ public:
   bool projected_divergence(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                             std::vector<double> &coefficients) const;
 
+  /** The part of a deformable body's lambda that acts on it [force/area]. */
+  double projected_lambda(const unsigned int body) const;
+
   /** Of a cell at the ghosted increment u: sum_m psi_m values[m] is the projected VolumeChange. */
   struct CellVolume
   {

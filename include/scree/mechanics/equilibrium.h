@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/body_balance.h>
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/condensation.h>
 #include <scree/mechanics/free_bodies.h>
 #include <scree/mechanics/rigid_bodies.h>
 #include <scree/state/state.h>
@@ -73,14 +74,6 @@ public:
 
   /** K at the u of the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
-
-  /** K = K_0 + B^T E B with the contact points glued in K_0, whatever the contact does. */
-  struct Condensation
-  {
-    const Matrix &glued;     //!< K_0, valid until the next tangent()
-    SparseRows    jumps;     //!< B on the unknowns that are not prescribed
-    bool          symmetric; //!< K_0
-  };
 
   /** @param only_closed glues the points that are closed at the last residual(), not all */
   Condensation condensation(const bool only_closed);

@@ -8,9 +8,6 @@
 
 namespace scree
 {
-/** lambda counts in pointwise penalties up to this multiple of mu: they must not hold volumes. */
-constexpr double largest_penalty_lambda = 4.;
-
 /**
  * Polynomials of degree k - 1 on the physical part of a cell, orthonormal for its quadrature: the
  * constant for degree 1, up to dim + 1 linear ones for degree 2. The volume change of the cell is

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace scree
+{
+/** What contact points remember from step to step. */
+template <int dim>
+struct ContactHistory
+{
+  std::vector<dealii::Tensor<1, dim>> tau;      //!< tangential traction on b
+  std::vector<dealii::Tensor<1, dim>> jump;     //!< [[u]]
+  std::vector<double>                 pressure; //!< only tied points need it
+};
+} // namespace scree
