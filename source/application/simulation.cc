@@ -1,6 +1,7 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
+#include <scree/contact/contact_reach.h>
 
 #include <deal.II/base/mpi.h>
 
