@@ -211,9 +211,42 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   };
   const NewtonResult result = Newton(parameters.newton, hooks).solve(u);
   if (result.converged() && pressed < 1e-6 * most_pressed)
-    log.line("Warning: contact carries nothing at time " + short_number(record.time)
-             + ": a body that nothing else holds slides away from what presses it");
+    {
+      require_no_slide();
+      log.line("Warning: contact carries nothing at time " + short_number(record.time)
+               + ": a body that nothing else holds moves away from what presses it");
+    }
   return result;
+}
+
+template <int dim>
+void
+Simulation<dim>::require_no_slide() const
+{
+  if (is_moving())
+    return;
+  // Gap, slip in cells, and pair of the point where bodies are nearest.
+  std::array<double, 3> nearest = {{std::numeric_limits<double>::max(), 0., 0.}};
+  for (unsigned int i = 0; i < contact->points().size(); ++i)
+    if (contact->gap(i) < nearest[0])
+      {
+        const auto &n    = contact->points()[i].normal;
+        const auto  jump = contact->jumps()[i] - state.contact.jump[i];
+        nearest          = {{contact->gap(i), (jump - (n * jump) * n).norm() / grid->finest_size(),
+                             double(contact->points()[i].pair)}};
+      }
+  for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, nearest))
+    nearest = std::min(nearest, other);
+  if (nearest[1] < 1.)
+    return;
+  const ContactPair &pair = contact->pairs()[static_cast<unsigned int>(nearest[2])];
+  throw UserError(
+    "Contact/" + pair.law.name,
+    "'" + bodies[pair.a].name + "' or '" + bodies[pair.b].name + "' slides away at time "
+      + short_number(record.time)
+      + ": what is prescribed presses them, and they slip along each other by "
+      + short_number(nearest[1] * grid->finest_size()) + " until nothing presses any more",
+    "hold the body that slides, drive it by a force, or raise the friction coefficient");
 }
 
 template <int dim>
@@ -328,6 +361,7 @@ Simulation<dim>::require_equilibrium_exists()
   template bool Simulation<dim>::solve_step(const double);                                         \
   template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \
     const LinearSolver::Vector &, const double, LinearSolver::Vector &);                           \
+  template void         Simulation<dim>::require_no_slide() const;                                 \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \
                                                          typename FreeBodies<dim>::Coordinates &); \

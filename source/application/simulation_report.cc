@@ -213,15 +213,17 @@ Simulation<dim>::throw_slides_away(const typename FreeBodies<dim>::Coordinates &
   if (!alone.empty())
     remedy = "no other body is within reach of " + alone
              + ": support it, place it nearer to what shall hold it, or raise Contact/Shift";
-  throw UserError(bodies[moves.front().body].path,
-                  "no equilibrium exists at time " + short_number(record.time)
-                    + ": the body slides away, for no contact pressure and no friction within its "
-                      "limit balances the loads; driven by them "
-                    + what
-                    + (std::isnan(held_until)
-                         ? ""
-                         : "; they could be balanced up to time " + short_number(held_until)),
-                  remedy);
+  throw UserError(
+    bodies[moves.front().body].path,
+    "no equilibrium exists at time " + short_number(record.time)
+      + (turns ? ": the body tips over, turns or slides away" : ": the body slides away")
+      + ", for no contact pressure and no friction within its "
+        "limit balances the loads; driven by them "
+      + what
+      + (std::isnan(held_until)
+           ? ""
+           : "; they could be balanced up to time " + short_number(held_until)),
+    remedy);
 }
 
 template <int dim>

@@ -170,6 +170,9 @@ private:
   {
     return overlap_is_resolved || step_control.n_accepted() > 0;
   }
+  /** @throws UserError if bodies on a fixed geometry slipped by more than a cell to be without
+   * load. */
+  void         require_no_slide() const;
   NewtonResult solve_equilibrium(typename Equilibrium<dim>::Vector &u);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
    * where that pays. */
