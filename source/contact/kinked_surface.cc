@@ -92,8 +92,10 @@ KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
   const unsigned int middle = quadratic.n_nodes / 2;
   if (std::abs(phi_a[middle] - phi_b[middle]) > 1.5 * std::sqrt(double(dim)) * size)
     return; // the surface does not pass
-  const double                   tolerance = 0.02 * size;
-  const dealii::BoundingBox<dim> part({lower, place(linear.node(linear.n_nodes - 1))});
+  const double tolerance = 0.02 * size;
+  // A kink on a face belongs to both parts, whatever the rounding.
+  dealii::BoundingBox<dim> part({lower, place(linear.node(linear.n_nodes - 1))});
+  part.extend(1e-6 * size);
   if (depth < least
       || (depth < most
           && (distances.is_kinked(pair.a, part) || distances.is_kinked(pair.b, part)

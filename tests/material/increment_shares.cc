@@ -23,6 +23,7 @@ TEST(IncrementLaw, ShareOfProjectedVolumeAndSecantRatio)
   parameters.poisson = -0.2;
   EXPECT_EQ(make_increment_law<2>(parameters)->projected_share(), 0.);
   parameters.law               = "J2";
+  parameters.young             = 260.;
   parameters.poisson           = 0.3;
   parameters.yield_stress      = 3.;
   parameters.hardening_modulus = 300.;

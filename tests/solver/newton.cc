@@ -230,8 +230,8 @@ TEST(Newton, FailuresAreTold)
                   scalar([](double u) { return u * u + 1; }, [](double u) { return 2 * u; }))
              .solve(u);
   EXPECT_EQ(result.status, NewtonStatus::max_iterations);
-  EXPECT_EQ(result.iterations, 25u);
-  EXPECT_EQ(result.residuals.size(), 26u);
+  EXPECT_EQ(result.iterations, NewtonParameters().max_iterations);
+  EXPECT_EQ(result.residuals.size(), NewtonParameters().max_iterations + 1u);
 
   // exp(-u) - 1e3 u runs away without a line search when the tangent is wrong by sign and size.
   u      = vector({1.});
