@@ -27,12 +27,18 @@ null_space(const DenseMatrix &matrix)
   double                           trace = 0.;
   for (unsigned int i = 0; i < n; ++i)
     trace += matrix(i, i);
-  DenseMatrix vectors;
   if (trace == 0.)
     return dealii::IdentityMatrix(n);
+  // Singular values are the eigenvalues; the largest come first.
   copy = matrix;
-  dealii::Vector<double> values;
-  copy.compute_eigenvalues_symmetric(-trace, negligible * trace, 0., values, vectors);
+  copy.compute_svd();
+  unsigned int n_held = 0;
+  while (n_held < n && copy.singular_value(n_held) > negligible * trace)
+    ++n_held;
+  DenseMatrix vectors(n, n - n_held);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = n_held; j < n; ++j)
+      vectors(i, j - n_held) = copy.get_svd_vt()(j, i);
   return vectors;
 }
 
