@@ -209,8 +209,8 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     log.progress(step_control.time() / parameters.time.end_time,
                  "step " + std::to_string(record.step) + ", " + text);
   };
-  const NewtonResult result = Newton(parameters.newton, hooks).solve(u);
-  const bool is_a_step = record.step > 0; // not a part of the overlap
+  const NewtonResult result    = Newton(parameters.newton, hooks).solve(u);
+  const bool         is_a_step = record.step > 0; // not a part of the overlap
   if (is_a_step && result.converged() && pressed < 1e-6 * most_pressed)
     {
       require_no_slide();
