@@ -24,32 +24,34 @@ def scaled_formula(text, length, factor):
     return '; '.join(component(formula) for formula in text.split(';'))
 
 
-def in_units(text, length, stress):
-    """The parameter file `text` with lengths times `length` and stresses times `stress`; two-dimensional."""
-    lines = text.splitlines()
-    types, path = {}, []
-    for line in lines:  # the types of the boundary conditions, which may stand after their values
-        words = line.split('#')[0].split()
-        if words[:1] == ['subsection']:
-            path.append(' '.join(words[1:]))
-        elif words == ['end']:
-            path.pop()
-        match = re.match(r'\s*set\s+Type\s*=\s*(.*?)\s*(#.*)?$', line)
-        if match:
-            types[tuple(path)] = match.group(1)
-    result, path = [], []
+def lines_in_sections(lines):
+    """Each line with the path of subsections in which it stands."""
+    path = []
     for line in lines:
         words = line.split('#')[0].split()
         if words[:1] == ['subsection']:
             path.append(' '.join(words[1:]))
         elif words == ['end']:
             path.pop()
+        yield line, tuple(path)
+
+
+def in_units(text, length, stress):
+    """The parameter file `text` with lengths times `length` and stresses times `stress`; two-dimensional."""
+    lines = text.splitlines()
+    types = {}
+    for line, path in lines_in_sections(lines):  # of the boundary conditions, may stand after their values
+        match = re.match(r'\s*set\s+Type\s*=\s*(.*?)\s*(#.*)?$', line)
+        if match:
+            types[path] = match.group(1)
+    result = []
+    for line, path in lines_in_sections(lines):
         match = re.match(r'(\s*set\s+)(.*?)\s*=\s*(.*?)\s*(#.*)?$', line)
         if match:
             start, key, value = match.group(1), match.group(2), match.group(3)
             units = FORMULAS.get(key)
             if key == 'Value' and 'Boundary conditions' in path:
-                units = OF_CONDITION[types.get(tuple(path), 'displacement')]
+                units = OF_CONDITION[types.get(path, 'displacement')]
             if key in LENGTHS:
                 value = scaled_numbers(value, length)
             elif key in STRESSES:
