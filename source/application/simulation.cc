@@ -118,10 +118,14 @@ Simulation<dim>::set_up_equilibrium()
   condensed_solver.reset();
   equilibrium.reset();
   {
-    const Timings::Scope scope(timings, "contact search");
+    const Timings::Scope       scope(timings, "contact search");
+    typename Bulk<dim>::Vector ratios;
+    if (step_start)
+      ratios = bulk->nodal_secant_ratios();
     contact = std::make_unique<ContactPoints<dim>>(
       *fields, *level_set_nodes, bodies, pairs, parameters.contact.shift * grid->finest_size(),
-      prediction(), step_start ? &step_start->displacement() : nullptr);
+      prediction(), step_start ? &step_start->displacement() : nullptr,
+      step_start ? &ratios : nullptr);
   }
   {
     const Timings::Scope scope(timings, "linear assembly");

@@ -30,7 +30,8 @@ Simulation<dim>::set_up_points()
       // the parts of a point may lie in cells of other processes
       send_to_owners<dim>(state.points, owner, communicator);
     }
-  step_start = std::make_unique<StepStart<dim>>(*fields, bodies, state.points, parameters.moving);
+  step_start = std::make_unique<StepStart<dim>>(*fields, *quadrature, bodies, state.points,
+                                                parameters.moving);
 }
 
 template <int dim>
@@ -112,7 +113,7 @@ Simulation<dim>::moved_points(const typename Equilibrium<dim>::Vector &u) const
       if (points.n_internal() > 0)
         {
           const PointHistory<dim> next = law.finish(history, F_D, response);
-          store_internal(next, &points.internal[p * points.n_internal()]);
+          store_internal(law, next, &points.internal[p * points.n_internal()]);
         }
     }
   points.move(increments, gradients);

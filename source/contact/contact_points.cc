@@ -31,7 +31,8 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const LevelSetNodes<dim>       &level_set_nodes,
                                   const std::vector<Body<dim>>   &bodies,
                                   const std::vector<ContactPair> &pairs, const double shift,
-                                  const Prediction &prediction, const Vector *start_displacement)
+                                  const Prediction &prediction, const Vector *start_displacement,
+                                  const Vector *secant_ratios)
     : contact_pairs(pairs)
 {
   for (const ContactPair &pair : pairs)
@@ -44,7 +45,7 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                    moves || prediction);
   find_stencils(fields, bodies, prediction, distances,
                 InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
-                start_displacement);
+                start_displacement, secant_ratios);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
@@ -77,7 +78,8 @@ double
 ContactPoints<dim>::eps_n(const unsigned int point) const
 {
   const ContactPoint<dim> &p = contact_points[point];
-  return contact_pairs[p.pair].law.normal_factor * pair_modulus[p.pair] / p.cell_size;
+  return contact_pairs[p.pair].law.normal_factor * flow_ratios[point] * pair_modulus[p.pair]
+         / p.cell_size;
 }
 
 template <int dim>
@@ -85,7 +87,8 @@ double
 ContactPoints<dim>::eps_t(const unsigned int point) const
 {
   const ContactPoint<dim> &p = contact_points[point];
-  return contact_pairs[p.pair].law.tangential_factor * pair_modulus[p.pair] / p.cell_size;
+  return contact_pairs[p.pair].law.tangential_factor * flow_ratios[point] * pair_modulus[p.pair]
+         / p.cell_size;
 }
 
 template <int dim>

@@ -11,6 +11,9 @@ namespace scree
 {
 namespace
 {
+/** Of the penalties: enough for a body that is unloaded and elastic again. */
+constexpr double smallest_ratio = 0.1;
+
 /** A vector at the nodes of stencils, which may lie on any process; empty for null. */
 dealii::TrilinosWrappers::MPI::Vector
 values_at(const std::vector<NodeStencil>              &stencils,
@@ -64,7 +67,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
                                   const Prediction          &prediction,
                                   const ExactDistances<dim> &distances,
                                   const InitialGaps<dim>    &initial_gaps,
-                                  const Vector              *start_displacement)
+                                  const Vector *start_displacement, const Vector *secant_ratios)
 {
   const auto                      box = fields.grid.box();
   std::vector<unsigned int>       of_body;
@@ -114,6 +117,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
     }
   const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
   const Vector                   u_n      = values_at(stencils, start_displacement, dim);
+  const Vector                   ratios   = values_at(stencils, secant_ratios, dim);
 
   std::vector<ContactPoint<dim>> kept;
   auto                           stencil = stencils.begin();
@@ -121,20 +125,27 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
     {
       const ContactPair                    &pair = contact_pairs[contact_points[i].pair];
       std::map<DofIndex, double>            jump, sides;
-      bool                                  is_found = true;
+      bool                                  is_found   = true;
+      double                                compliance = 0., secant_compliance = 0.;
       std::array<dealii::Tensor<1, dim>, 2> moved;
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
         if (!bodies[body].is_rigid())
           {
             is_found &= !stencil->empty();
+            double ratio = secant_ratios ? 0. : 1.;
             for (const auto &[node, weight] : *stencil)
               {
                 jump[node] += sign * weight;
                 sides[node] = sign;
+                if (secant_ratios)
+                  ratio += weight * ratios(node);
                 for (unsigned int d = 0; d < dim && start_displacement; ++d)
                   moved[sign > 0.][d] += weight * u_n(node + d);
               }
             ++stencil;
+            compliance += 1. / bodies[body].material->young();
+            secant_compliance
+              += 1. / (std::clamp(ratio, smallest_ratio, 1.) * bodies[body].material->young());
           }
       if (!is_found)
         continue; // the surface ends here: one of the bodies is clipped by the box
@@ -166,6 +177,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
       for (const auto &[node, weight] : jump)
         stencil_weights.push_back(weight);
       kept.push_back(contact_points[i]);
+      flow_ratios.push_back(compliance > 0. ? compliance / secant_compliance : 1.);
       if (!rigid_partners.empty())
         contact_feet.push_back(feet[i]);
     }
@@ -177,7 +189,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
                                                         const std::vector<Body<dim>> &); \
   template void ContactPoints<dim>::find_stencils(                                       \
     const Fields<dim> &, const std::vector<Body<dim>> &, const Prediction &,             \
-    const ExactDistances<dim> &, const InitialGaps<dim> &, const Vector *);
+    const ExactDistances<dim> &, const InitialGaps<dim> &, const Vector *, const Vector *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -155,6 +155,21 @@ CutCellRules<dim>::face_rule(const double *scaled, const double cell_size, const
   return result;
 }
 
+namespace
+{
+/** Along the gradient, to first order; within half a cell. */
+template <int dim>
+double
+distance_to_contour(const Lattice<dim> &level_set, const GridCell<dim> &cell,
+                    const dealii::Point<dim> &unit_point)
+{
+  const auto [phi, gradient]
+    = level_set.value_and_gradient(cell.lower + cell.size * dealii::Tensor<1, dim>(unit_point), 3);
+  const double distance = -phi / gradient.norm();
+  return std::abs(distance) < 0.5 * cell.size ? distance : 0.;
+}
+} // namespace
+
 template <int dim>
 CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
                                   const LevelSetNodes<dim>     &level_set_nodes,
@@ -174,10 +189,15 @@ CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
           surface.append({});
           continue;
         }
-      const double size = fields.grid.cells()[cell.grid_cell].size;
-      const auto   cut  = rules.rules(level_set_nodes.cut(cell.grid_cell, bodies[cell.body]), size);
-      bulk.append(cut.inside);
-      surface.append(cut.surface);
+      const auto &geometry = fields.grid.cells()[cell.grid_cell];
+      const auto  cut      = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
+      const auto  points   = rules.rules(cut, geometry.size);
+      bulk.append(points.inside);
+      surface.append(points.surface);
+      for (const auto &point : points.surface.points)
+        strip_widths.push_back(cut.parts.empty()
+                                 ? distance_to_contour(bodies[cell.body].level_set, geometry, point)
+                                 : 0.);
     }
 }
 

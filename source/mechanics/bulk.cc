@@ -146,6 +146,28 @@ Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
 }
 
 template <int dim>
+dealii::Tensor<1, dim>
+Bulk<dim>::body_force(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                      const double time) const
+{
+  const ActiveCell        &cell     = fields.cells()[active_cell];
+  const auto              &geometry = fields.grid.cells()[cell.grid_cell];
+  const auto              &force    = bodies[cell.body].body_force;
+  const dealii::Point<dim> position
+    = geometry.lower + geometry.size * dealii::Tensor<1, dim>(unit_point);
+  const dealii::Tensor<1, dim> b = force.vector(position, time);
+  if (!std::isfinite(b.norm_square()))
+    {
+      std::ostringstream where;
+      where << position << ", t = " << time;
+      throw UserError(bodies[cell.body].path + "/Body force",
+                      "'" + force.text() + "' is no finite number at the point " + where.str(),
+                      "check divisions, roots and logarithms");
+    }
+  return b;
+}
+
+template <int dim>
 void
 Bulk<dim>::add_body_forces(Vector &loads, const double time) const
 {
@@ -154,35 +176,34 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
   dealii::Vector<double> cell_load(n * dim);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell  = fields.cells()[a];
-      const auto       &force = bodies[cell.body].body_force;
-      if (force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
+      const ActiveCell &cell = fields.cells()[a];
+      if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
         continue;
-      const auto    &geometry = fields.grid.cells()[cell.grid_cell];
-      const CellRule points   = rule(a);
-      cell_load               = 0.;
+      const CellRule points = rule(a);
+      const double   size   = fields.grid.cells()[cell.grid_cell].size;
+      double         volume = 0., reference_volume = 0.;
+      cell_load      = 0.;
+      const auto add = [&](const dealii::Point<dim> &unit_point, const double weight) {
+        const dealii::Tensor<1, dim> b = weight * body_force(a, unit_point, time);
+        fields.basis.evaluate_values(unit_point, shape.data());
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            cell_load(i * dim + d) += shape[i] * b[d];
+      };
       for (unsigned int q = 0; q < points.n_points; ++q)
         {
-          fields.basis.evaluate_values(points.points[q], shape.data());
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-          dealii::Tensor<1, dim> b
-            = points.weights[q] * points.weight_scale * force.vector(position, time);
-          if (start)
-            b /= volume_ratios[first_point[a] + q];
-          if (!std::isfinite(b.norm_square()))
-            {
-              std::ostringstream where;
-              where << position << ", t = " << time;
-              throw UserError(bodies[cell.body].path + "/Body force",
-                              "'" + force.text() + "' is no finite number at the point "
-                                + where.str(),
-                              "check divisions, roots and logarithms");
-            }
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int d = 0; d < dim; ++d)
-              cell_load(i * dim + d) += shape[i] * b[d];
+          const double weight    = points.weights[q] * points.weight_scale;
+          const double reference = start ? weight / volume_ratios[first_point[a] + q] : weight;
+          add(points.points[q], reference);
+          volume += weight;
+          reference_volume += reference;
         }
+      // The strip between the cut and the body's boundary.
+      const auto &surface = quadrature.surface;
+      for (unsigned int q = surface.begin[a]; q < surface.begin[a + 1] && volume > 0.; ++q)
+        if (const double width = quadrature.strip_widths[q]; width != 0.)
+          add(surface.points[q] + 0.5 * width / size * surface.normals[q],
+              width * surface.weights[q] * reference_volume / volume);
       fields.hanging_constraints().distribute_local_to_global(
         cell_load, unknowns_of_nodes<dim>(fields.nodes(a), n), loads);
     }

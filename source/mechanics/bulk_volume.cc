@@ -200,6 +200,21 @@ Bulk<dim>::find_secant_ratios()
 }
 
 template <int dim>
+typename Bulk<dim>::Vector
+Bulk<dim>::nodal_secant_ratios() const
+{
+  Vector smallest(fields.owned(), fields.grid.communicator());
+  for (const DofIndex i : fields.owned())
+    smallest(i) = 1.;
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      if (const DofIndex node = fields.nodes(a)[i]; fields.owned().is_element(node))
+        smallest(node) = std::min<double>(smallest(node), secant_ratios[a]);
+  smallest.compress(dealii::VectorOperation::insert);
+  return smallest;
+}
+
+template <int dim>
 void
 Bulk<dim>::set_up_increment_modes()
 {
@@ -315,7 +330,8 @@ Bulk<dim>::projected_increment(const unsigned int active_cell, const dealii::Poi
                                                      dealii::FullMatrix<double> &) const;         \
   template double Bulk<dim>::ghost_stiffness(const GhostFace &) const;                            \
   template void   Bulk<dim>::find_secant_ratios();                                                \
-  template void   Bulk<dim>::set_up_increment_modes();                                            \
+  template typename Bulk<dim>::Vector     Bulk<dim>::nodal_secant_ratios() const;                 \
+  template void                           Bulk<dim>::set_up_increment_modes();                    \
   template typename Bulk<dim>::CellVolume Bulk<dim>::cell_volume(                                 \
     const unsigned int, const Vector &, const bool) const;                                        \
   template std::vector<typename Bulk<dim>::CellVolume> Bulk<dim>::cell_volumes(const Vector &)    \

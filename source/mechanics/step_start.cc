@@ -18,11 +18,10 @@ namespace
 {
 template <int dim>
 bool
-has_plastic_strain(const Body<dim> &body)
+has_plastic_strain(const IncrementLaw<dim> &law)
 {
-  return !body.is_rigid()
-         && (body.law->internal() == InternalTensor::plastic_metric
-             || body.law->internal() == InternalTensor::plastic_strain);
+  return law.internal() == InternalTensor::plastic_metric
+         || law.internal() == InternalTensor::plastic_strain;
 }
 
 /** dev sym(F - I). */
@@ -41,11 +40,16 @@ deviatoric_logarithm(const dealii::Tensor<2, 3> &m)
     dealii::SymmetricTensor<2, 3>(symmetrize(2. * LogarithmicStrain(eigensystem(m)).value())));
 }
 
-/** Deviator of the elastic strain: of ln b_e, b_e = F C_p^{-1} F^T, or of eps - eps_p. */
+/**
+ * Deviator of the elastic strain: of ln b_e, b_e = F C_p^{-1} F^T, or of eps - eps_p; zero of other
+ * laws.
+ */
 template <int dim>
 dealii::SymmetricTensor<2, 3>
 elastic_strain(const IncrementLaw<dim> &law, const PointHistory<dim> &history)
 {
+  if (!has_plastic_strain(law))
+    return {};
   if (law.internal() == InternalTensor::plastic_strain)
     return deviatoric_strain<dim>(history.deformation_gradient) - history.internal;
   return deviatoric_logarithm(law.start(history).tensor);
@@ -64,68 +68,50 @@ internal_of(const IncrementLaw<dim> &law, const dealii::SymmetricTensor<2, 3> &e
                               * transpose(inverse));
 }
 
-/** A deviator as the points carry it: in two dimensions without the third row, and back. */
-template <int dim>
-dealii::SymmetricTensor<2, dim>
-reduced(const dealii::SymmetricTensor<2, 3> &deviatoric)
-{
-  dealii::SymmetricTensor<2, dim> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = deviatoric[i][j];
-  return result;
-}
-
-template <int dim>
-dealii::SymmetricTensor<2, 3>
-completed(const dealii::SymmetricTensor<2, dim> &tensor)
-{
-  dealii::SymmetricTensor<2, 3> result;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      result[i][j] = tensor[i][j];
-  if (dim == 2)
-    result[2][2] = -trace(tensor);
-  return result;
-}
-
 /**
- * Where the material flowed, plastic strains follow the deformation gradient at the point: what
- * moving least squares carry is the elastic strain, with a share of one less the secant ratio.
- * Plastic strains smoothed without F, which jumps from cell to cell, would make the material flow
- * once more.
+ * Where the material flowed, its elastic strain is kept and plastic strains follow the deformation
+ * gradient F that the law sees, with a share of one less the secant ratio: F has errors, and jumps
+ * from cell to cell, that are small beside the plastic strain but not beside the elastic one. With
+ * plastic strains kept the material would flow once more in every step.
  */
 template <int dim>
 void
-set_plastic_strains(const Body<dim> &body, const dealii::SymmetricTensor<2, dim> &elastic,
-                    PointHistory<dim> &history)
+set_plastic_strains(const IncrementLaw<dim> &law, const dealii::SymmetricTensor<2, 3> &elastic,
+                    const dealii::Tensor<2, dim> &F, PointHistory<dim> &history)
 {
-  if (!has_plastic_strain(body) || history.alpha <= 0.)
-    return;
-  const double share = body.law->secant_ratio(history.alpha);
-  history.internal
-    = share * history.internal
-      + (1. - share)
-          * internal_of<dim>(*body.law, completed<dim>(elastic), history.deformation_gradient);
+  const double share = law.secant_ratio(history.alpha);
+  history.internal   = share * history.internal + (1. - share) * internal_of<dim>(law, elastic, F);
 }
-} // namespace
 
-template <int dim>
-void
-store_internal(const PointHistory<dim> &history, double *internal)
+dealii::SymmetricTensor<2, 3>
+load_tensor(const double *numbers)
 {
+  dealii::SymmetricTensor<2, 3> result;
   for (unsigned int i = 0; i < 6; ++i)
-    internal[i] = history.internal.access_raw_entry(i);
-  internal[6] = history.alpha;
+    result.access_raw_entry(i) = numbers[i];
+  return result;
 }
 
 template <int dim>
 void
 load_internal(const double *internal, PointHistory<dim> &history)
 {
+  history.internal = load_tensor(internal);
+  history.alpha    = internal[6];
+}
+} // namespace
+
+template <int dim>
+void
+store_internal(const IncrementLaw<dim> &law, const PointHistory<dim> &history, double *internal)
+{
+  const dealii::SymmetricTensor<2, 3> elastic = elastic_strain<dim>(law, history);
   for (unsigned int i = 0; i < 6; ++i)
-    history.internal.access_raw_entry(i) = internal[i];
-  history.alpha = internal[6];
+    {
+      internal[i]     = history.internal.access_raw_entry(i);
+      internal[7 + i] = elastic.access_raw_entry(i);
+    }
+  internal[6] = history.alpha;
 }
 
 template <int dim>
@@ -138,8 +124,8 @@ StepStart<dim>::needs_internal(const std::vector<Body<dim>> &bodies)
 }
 
 template <int dim>
-StepStart<dim>::StepStart(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                          const MaterialPoints<dim>      &points,
+StepStart<dim>::StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+                          const std::vector<Body<dim>> &bodies, const MaterialPoints<dim> &points,
                           const MovingGeometryParameters &parameters)
     : fields(fields)
     , bodies(bodies)
@@ -159,22 +145,92 @@ StepStart<dim>::StepStart(const Fields<dim> &fields, const std::vector<Body<dim>
     {
       collect_neighbours();
       moving_least_squares.emplace(
-        scree::moving_least_squares(cloud, {fields.basis.degree, parameters.support}));
+        scree::moving_least_squares(cloud, {fields.basis.degree, parameters.support, true}));
     }
+  find_volume_changes(quadrature);
+}
+
+template <int dim>
+void
+StepStart<dim>::find_volume_changes(const CutQuadrature<dim> &quadrature)
+{
+  const dealii::Tensor<2, dim>  identity(dealii::unit_symmetric_tensor<dim>());
+  const auto                   &whole = quadrature.whole_cell;
+  std::vector<PointInCell<dim>> places;
+  std::vector<double>           weights;
+  change_of_cell.assign(fields.n_owned_cells(), -1);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell = fields.cells()[a];
+      const auto       &body = bodies[cell.body];
+      if (body.is_rigid() || !has_plastic_strain(*body.law))
+        continue;
+      const unsigned int begin = cell.is_cut ? quadrature.bulk.begin[a] : 0;
+      const unsigned int n
+        = cell.is_cut ? quadrature.bulk.begin[a + 1] - begin : whole.points.size();
+      const dealii::Point<dim> *points
+        = (cell.is_cut ? quadrature.bulk.points : whole.points).data() + begin;
+      const double *volumes
+        = (cell.is_cut ? quadrature.bulk.weights : whole.weights).data() + begin;
+      places.clear();
+      for (unsigned int q = 0; q < n; ++q)
+        places.push_back({a, points[q]});
+      const auto                     gradients = deformation_gradients(places);
+      std::vector<VolumeChange<dim>> changes;
+      weights.assign(volumes, volumes + n);
+      for (unsigned int q = 0; q < n; ++q)
+        {
+          const IncrementStart start = body.law->start({gradients[q], {}, 0.});
+          changes.emplace_back(body.law->work(), identity, start);
+          weights[q] /= start.volume_ratio;
+        }
+      change_of_cell[a] = volume_changes.size();
+      volume_changes.push_back({{points, weights.data(), n, fields.basis.degree - 1}, {}});
+      auto &[modes, values] = volume_changes.back();
+      for (unsigned int q = 0; q < n; ++q)
+        for (unsigned int m = 0; m < modes.n; ++m)
+          values[m] += weights[q] * modes(points[q])[m] * changes[q].value;
+    }
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+StepStart<dim>::projected_gradient(const PointInCell<dim>       &point,
+                                   const dealii::Tensor<2, dim> &F) const
+{
+  if (point.active_cell >= fields.n_owned_cells())
+    return F; // a point beyond its body, next to a cell of another process
+  const auto &law             = *bodies[fields.cells()[point.active_cell].body].law;
+  const auto &[modes, values] = volume_changes[change_of_cell[point.active_cell]];
+  if (modes.n == 0)
+    return F;
+  const auto psi   = modes(point.unit_point);
+  double     value = 0.;
+  for (unsigned int m = 0; m < psi.size(); ++m)
+    value += psi[m] * values[m];
+  VolumeChange<dim> change(law.work(), dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()),
+                           law.start({F, {}, 0.}));
+  return change.project(value, law.projected_share() / dim) * F;
+}
+
+template <int dim>
+void
+StepStart<dim>::set_internal(const PointInCell<dim> &point, const double *internal,
+                             PointHistory<dim> &history) const
+{
+  const auto &law = *bodies[fields.cells()[point.active_cell].body].law;
+  load_internal(internal, history);
+  if (has_plastic_strain(law) && history.alpha > 0.)
+    set_plastic_strains<dim>(law, load_tensor(internal + 7),
+                             projected_gradient(point, history.deformation_gradient), history);
 }
 
 template <int dim>
 void
 StepStart<dim>::collect_neighbours()
 {
-  // The stresses of points are not needed here: the cloud has elastic strains in their place.
-  cloud = own_points;
-  for (std::size_t p = 0; p < own_points.size(); ++p)
-    if (has_plastic_strain(bodies[own_points.body[p]]))
-      cloud.stress[p] = reduced<dim>(
-        elastic_strain<dim>(*bodies[own_points.body[p]].law, history_of_material_point(p)));
-  const MaterialPoints<dim> sent = cloud;
-  const MPI_Comm            comm = fields.grid.communicator();
+  cloud               = own_points;
+  const MPI_Comm comm = fields.grid.communicator();
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
     return;
   // A radius that has grown six times by 1.25 is 3.8 times the first one.
@@ -185,7 +241,7 @@ StepStart<dim>::collect_neighbours()
     largest_size = std::max(largest_size, own_points.spacing(p));
   const double reach  = 4. * parameters.support * dealii::Utilities::MPI::max(largest_size, comm);
   const auto   others = neighbours_from_others<dim>(
-    sent,
+    own_points,
     [&](const dealii::Point<dim> &x) {
       // The processes of a lattice of probes as fine as the cells are.
       const int              n = static_cast<int>(std::ceil(reach / fields.grid.finest_size()));
@@ -284,36 +340,35 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
 }
 
 template <int dim>
+std::vector<dealii::Tensor<2, dim>>
+StepStart<dim>::deformation_gradients(const std::vector<PointInCell<dim>> &points) const
+{
+  if (parameters.deformation == DeformationTransfer::moving_least_squares)
+    return weights(points).values(cloud.deformation_gradient);
+  std::vector<dealii::Tensor<2, dim>> result;
+  result.reserve(points.size());
+  for (const auto &point : points)
+    result.push_back(deformation(point).gradient);
+  return result;
+}
+
+template <int dim>
 std::vector<PointHistory<dim>>
 StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
 {
   std::vector<PointHistory<dim>> result(points.size());
-  const bool of_points = parameters.deformation == DeformationTransfer::moving_least_squares;
-  if (!of_points)
-    for (std::size_t i = 0; i < points.size(); ++i)
-      result[i].deformation_gradient = deformation(points[i]).gradient;
-  if (cloud.n_internal() > 0 || of_points)
-    {
-      const PointWeights transfer = weights(points);
-      if (of_points)
-        {
-          const auto gradients = transfer.values(cloud.deformation_gradient);
-          for (std::size_t i = 0; i < points.size(); ++i)
-            result[i].deformation_gradient = gradients[i];
-        }
-      if (cloud.n_internal() > 0)
-        {
-          const auto internal = transfer.values(cloud.internal, n_internal);
-          for (std::size_t i = 0; i < points.size(); ++i)
-            {
-              load_internal(&internal[i * n_internal], result[i]);
-              set_plastic_strains(bodies[fields.cells()[points[i].active_cell].body],
-                                  transfer.value(cloud.stress, i), result[i]);
-            }
-        }
-    }
+  const auto                     gradients = deformation_gradients(points);
   for (std::size_t i = 0; i < points.size(); ++i)
-    require_admissible(points[i], result[i].deformation_gradient);
+    {
+      result[i].deformation_gradient = gradients[i];
+      require_admissible(points[i], gradients[i]);
+    }
+  if (cloud.n_internal() > 0)
+    {
+      const auto internal = weights(points).values(cloud.internal, n_internal);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        set_internal(points[i], &internal[i * n_internal], result[i]);
+    }
   return result;
 }
 
@@ -326,14 +381,13 @@ StepStart<dim>::history_of_material_point(const std::size_t point) const
                                   ? own_points.deformation_gradient[point]
                                   : deformation(locations[point]).gradient;
   if (own_points.n_internal() > 0)
-    load_internal(&own_points.internal[point * n_internal], result);
+    set_internal(locations[point], &own_points.internal[point * n_internal], result);
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                       \
-  template class StepStart<dim>;                                     \
-  template void store_internal(const PointHistory<dim> &, double *); \
-  template void load_internal(const double *, PointHistory<dim> &);
+#define SCREE_INSTANTIATE(dim)   \
+  template class StepStart<dim>; \
+  template void store_internal(const IncrementLaw<dim> &, const PointHistory<dim> &, double *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

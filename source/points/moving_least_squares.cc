@@ -13,6 +13,9 @@ namespace
 // Neighbours are treated in groups of this many, which the compiler turns into vector instructions.
 constexpr unsigned int n_lanes = 8;
 
+// Weights that interpolate are those of the spline over s'^2: they stop growing at this s'^2.
+constexpr double singularity = 1e-6;
+
 constexpr unsigned int
 n_monomials(const unsigned int dim, const unsigned int degree)
 {
@@ -273,9 +276,11 @@ MovingLeastSquares<dim>::gather(const unsigned int body, const Point<dim> &x, co
   double sum_weights = 0., sum_spacings = 0.;
   for (unsigned int i = 0; i < n; ++i)
     {
-      const double square  = 2.25 * neighbours.spline[i];
-      const double rest    = 1.5 - std::sqrt(square);
-      const double spline  = square <= 0.25 ? 0.75 - square : 0.5 * rest * rest;
+      const double square = 2.25 * neighbours.spline[i];
+      const double rest   = 1.5 - std::sqrt(square);
+      double       spline = square <= 0.25 ? 0.75 - square : 0.5 * rest * rest;
+      if (options.interpolates)
+        spline /= square + singularity;
       neighbours.spline[i] = spline;
       sum_weights += spline;
       sum_spacings += spline * spacing[neighbours.place[i]];

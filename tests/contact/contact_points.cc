@@ -50,6 +50,32 @@ TEST(ContactPoints, PlaneOnGradedGrid)
   check_plane(0.3, 2, graded_text(1));
 }
 
+// The penalties belong to the secant moduli of both sides, of at least a tenth of E.
+TEST(ContactPoints, PenaltiesFollowFlow)
+{
+  const CutBodies<2>       model(two_half_planes(0.3, 0.02, 2));
+  const auto               elastic = contact_points(model);
+  const IndexSet           owned   = model.fields->owned();
+  std::vector<ContactPair> pairs   = elastic.pairs();
+  for (const double ratio : {1., 0.4, 0.01})
+    {
+      Vector ratios(owned, model.grid.communicator());
+      for (const auto i : owned)
+        ratios(i) = ratio;
+      ratios.compress(VectorOperation::insert);
+      const ContactPoints<2> contact(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                                     CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr,
+                                     &ratios);
+      ASSERT_EQ(contact.points().size(), elastic.points().size());
+      for (unsigned int i = 0; i < contact.points().size(); ++i)
+        {
+          const double factor = std::max(ratio, 0.1);
+          EXPECT_NEAR(contact.eps_n(i), factor * elastic.eps_n(i), 1e-10 * elastic.eps_n(i));
+          EXPECT_NEAR(contact.eps_t(i), factor * elastic.eps_t(i), 1e-10 * elastic.eps_t(i));
+        }
+    }
+}
+
 template <int dim>
 void
 check_jumps(const CutBodies<dim> &model)

@@ -186,7 +186,14 @@ check_resultants(EquilibriumModel<dim> &model, const std::string &body_force)
         for (unsigned int q = model.quadrature.bulk.begin[a];
              q < model.quadrature.bulk.begin[a + 1]; ++q)
           add(model.quadrature.bulk.points[q], model.quadrature.bulk.weights[q]);
-      else
+      const auto &surface = model.quadrature.surface;
+      for (unsigned int q = surface.begin[a]; q < surface.begin[a + 1]; ++q)
+        {
+          const double width = model.quadrature.strip_widths[q];
+          add(surface.points[q] + 0.5 * width / cell.size * surface.normals[q],
+              width * surface.weights[q]);
+        }
+      if (!fields.cells()[a].is_cut)
         for (unsigned int q = 0; q < model.quadrature.whole_cell.points.size(); ++q)
           add(model.quadrature.whole_cell.points[q],
               model.quadrature.whole_cell.weights[q] * std::pow(cell.size, dim));

@@ -32,7 +32,7 @@ struct StartedStep
       , cut(input.bodies)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
       , points(moved(law, displacement))
-      , start(*cut.fields, cut.bodies, points, parameters)
+      , start(*cut.fields, quadrature, cut.bodies, points, parameters)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),

@@ -119,6 +119,29 @@ TEST(MovingLeastSquares, order)
     }
 }
 
+// Weights that interpolate keep the values at points, next to them too, and reproduce the basis.
+TEST(MovingLeastSquares, interpolates)
+{
+  for (unsigned int degree = 0; degree <= 2; ++degree)
+    {
+      const auto                  cloud = make_cloud<2>(10, Placement::irregular, 1);
+      const MovingLeastSquares<2> least_squares(cloud.position, cloud.body, cloud.spacing,
+                                                {degree, 1.75, true});
+      const auto                  targets = make_targets<2>(20, Placement::irregular, 0.2);
+      EXPECT_LT(largest_error(least_squares.weights(targets), cloud, targets, degree), 1e-11);
+
+      std::vector<double> field;
+      for (std::size_t i = 0; i < cloud.position.size(); ++i)
+        field.push_back(i % 3 - 1.);
+      Targets<2> near{cloud.position, cloud.body, std::vector<double>(cloud.position.size(), 0.1)};
+      for (auto &x : near.position)
+        x[0] += 1e-5;
+      const auto values = least_squares.weights(near).values(field);
+      for (std::size_t i = 0; i < field.size(); ++i)
+        EXPECT_NEAR(values[i], field[i], 1e-3);
+    }
+}
+
 // All components by one set of weights: tensors and rows of numbers give what scalars give.
 TEST(MovingLeastSquares, components)
 {

@@ -53,13 +53,14 @@ public:
    * @param shift bound on phi on the contact surface [L]
    * @param prediction empty: no sliding is expected
    * @param start_displacement u_n of the deformable bodies at the owned unknowns; null: zero
+   * @param secant_ratios of plastic flow at the first unknown of each owned node; null: one
    * @throws UserError if two rigid bodies have no penalty modulus, or the contact surface ends
    * before the gaps that a law adjusts or glues
    */
   ContactPoints(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                 const double shift, const Prediction &prediction = {},
-                const Vector *start_displacement = nullptr);
+                const Vector *start_displacement = nullptr, const Vector *secant_ratios = nullptr);
 
   const std::vector<ContactPoint<dim>> &points() const
   {
@@ -141,7 +142,7 @@ public:
   /** Contact forces of the last evaluation on a rigid body, of the points of this process. */
   typename RigidPose<dim>::Load rigid_load(const unsigned int body) const;
 
-  /** Penalties eps_n, eps_t of a point [force/area/L]. */
+  /** Penalties eps_n, eps_t of a point, with rho E for E where bodies flow [force/area/L]. */
   double eps_n(const unsigned int point) const;
   double eps_t(const unsigned int point) const;
 
@@ -173,7 +174,8 @@ private:
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
   void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                      const Prediction &prediction, const ExactDistances<dim> &distances,
-                     const InitialGaps<dim> &initial_gaps, const Vector *start_displacement);
+                     const InitialGaps<dim> &initial_gaps, const Vector *start_displacement,
+                     const Vector *secant_ratios);
 
   /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
   void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,
@@ -232,6 +234,7 @@ private:
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;
+  std::vector<double>                 flow_ratios; //!< E'/E of each point
   /** Of the rigid ones of the bodies a and b of each point; empty without rigid bodies. */
   std::vector<std::array<RigidFoot, 2>> contact_feet;
   std::vector<Group>                    groups;

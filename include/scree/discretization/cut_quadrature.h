@@ -95,6 +95,12 @@ public:
   QuadratureCache<dim> bulk;
   /** Points of the body's surface in owned active cell i; none if the cell is not cut. */
   QuadratureCache<dim> surface;
+  /**
+   * Distance from each point of `surface` to the boundary along the normal [L]: -phi/|grad phi| of
+   * the cubic interpolant. int s v over the surface is what the integral of v over the body lacks,
+   * which is of order h^2 for linear cuts. Zero where parts of exact shapes are cut.
+   */
+  std::vector<double> strip_widths;
   /** Tensor Gauss rule of a whole cell, for unit edge. */
   CellPoints<dim> whole_cell;
 };

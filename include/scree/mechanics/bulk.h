@@ -50,7 +50,7 @@ public:
    * are condensed. */
   void add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-  /** Adds int b . v at time `time`. */
+  /** Adds int b . v at time `time`, over the body up to its boundary: see strip_widths. */
   void add_body_forces(Vector &loads, const double time) const;
 
   /** Adds int P : grad v at the ghosted increment u; nothing on a fixed geometry. */
@@ -120,6 +120,9 @@ public:
     return secant_ratios[active_cell];
   }
 
+  /** The smallest of the cells around each owned node, at its first unknown. */
+  Vector nodal_secant_ratios() const;
+
   /** Which nodes couple, cell by cell and ghost face by ghost face. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
@@ -147,6 +150,10 @@ private:
     double                    weight_scale;
   };
   CellRule rule(const unsigned int active_cell) const;
+
+  /** @throws UserError where it is not finite */
+  dealii::Tensor<1, dim> body_force(const unsigned int        active_cell,
+                                    const dealii::Point<dim> &unit_point, const double time) const;
 
   // Moving geometry, bulk_increment.cc.
   void set_up_increments();

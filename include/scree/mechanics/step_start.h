@@ -1,7 +1,9 @@
 #pragma once
 
+#include <scree/discretization/cut_quadrature.h>
 #include <scree/mechanics/moving_geometry_parameters.h>
 #include <scree/mechanics/reference_map.h>
+#include <scree/mechanics/volume_projection.h>
 #include <scree/points/moving_least_squares.h>
 
 #include <optional>
@@ -13,7 +15,8 @@ namespace scree
  * What a step on a moving geometry starts from: the displacement u_n = x - X since the start of
  * the run and the material's history, anywhere in the bodies. u_n is the fit of the material
  * points (fit_displacement()) and gives F_n = (I - grad u_n)^{-1}; or F_n comes from the points by
- * moving least squares. Internal variables always do.
+ * moving least squares. Internal variables always do, by those that interpolate: stresses that are
+ * smoothed in every step fall below the yield stress where the material flows.
  */
 template <int dim>
 class StepStart
@@ -22,8 +25,9 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /** Collective. Points are those of the owned cells. */
-  StepStart(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-            const MaterialPoints<dim> &points, const MovingGeometryParameters &parameters);
+  StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+            const std::vector<Body<dim>> &bodies, const MaterialPoints<dim> &points,
+            const MovingGeometryParameters &parameters);
 
   /** u_n and F_n at a point. */
   struct Deformation
@@ -66,8 +70,11 @@ public:
     return report;
   }
 
-  /** Entries of MaterialPoints::internal: six of the internal tensor, then alpha. */
-  static constexpr unsigned int n_internal = 7;
+  /**
+   * Entries of MaterialPoints::internal: six of the internal tensor, alpha, six of the deviator of
+   * the elastic strain (of ln b_e at finite strain).
+   */
+  static constexpr unsigned int n_internal = 13;
   /** Whether some law needs them. */
   static bool needs_internal(const std::vector<Body<dim>> &bodies);
 
@@ -75,6 +82,16 @@ private:
   void require_admissible(const PointInCell<dim> &point, const dealii::Tensor<2, dim> &F) const;
   PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
   void         collect_neighbours();
+  std::vector<dealii::Tensor<2, dim>>
+  deformation_gradients(const std::vector<PointInCell<dim>> &points) const;
+  /** Projects the volume changes of F_n in the cells of bodies that may flow, as Bulk does. */
+  void find_volume_changes(const CutQuadrature<dim> &quadrature);
+  /** The F_n that the law of such a body sees. */
+  dealii::Tensor<2, dim> projected_gradient(const PointInCell<dim>       &point,
+                                            const dealii::Tensor<2, dim> &F) const;
+  /** Takes the n_internal numbers into the history of a point whose F_n is known. */
+  void set_internal(const PointInCell<dim> &point, const double *internal,
+                    PointHistory<dim> &history) const;
 
   const Fields<dim>              &fields;
   const std::vector<Body<dim>>   &bodies;
@@ -86,12 +103,18 @@ private:
   MaterialPoints<dim>             cloud;         //!< own points and neighbours
   /** From the cloud, if something needs it. */
   std::optional<MovingLeastSquares<dim>> moving_least_squares;
-  mutable MovingLeastSquaresReport       report;
+  struct ProjectedVolumeChange
+  {
+    VolumeModes<dim>                            modes;
+    std::array<double, VolumeModes<dim>::n_max> values;
+  };
+  std::vector<ProjectedVolumeChange> volume_changes;
+  std::vector<int>                   change_of_cell; //!< of each owned cell, -1: none
+  mutable MovingLeastSquaresReport   report;
 };
 
-/** The internal tensor and alpha as MaterialPoints::internal stores them. */
+/** Internal tensor, alpha and elastic strain as MaterialPoints::internal holds them. */
 template <int dim>
-void store_internal(const PointHistory<dim> &history, double *internal);
-template <int dim>
-void load_internal(const double *internal, PointHistory<dim> &history);
+void store_internal(const IncrementLaw<dim> &law, const PointHistory<dim> &history,
+                    double *internal);
 } // namespace scree

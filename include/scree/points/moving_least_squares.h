@@ -9,8 +9,9 @@ namespace scree
 /** Choices of the moving least squares; method.md section 9. */
 struct MovingLeastSquaresOptions
 {
-  unsigned int degree  = 1;    //!< of the polynomials that are reproduced: 0, 1 or 2
-  double       support = 1.75; //!< radius over the larger of cell and point spacing, 1.5 to 2
+  unsigned int degree       = 1;     //!< of the polynomials that are reproduced: 0, 1 or 2
+  double       support      = 1.75;  //!< radius over the larger of cell and point spacing, 1.5 to 2
+  bool         interpolates = false; //!< whether values at points are kept
 };
 
 /** How often the moving least squares had to do with less than was asked for. */
