@@ -137,7 +137,7 @@ Simulation<dim>::collect() const
         {
           result.moving.bodies.emplace_back();
           BodyPlace<dim> &place = result.moving.bodies.back();
-          place.pose            = body.pose;
+          place.pose            = body.pose.unknowns();
           if (body.is_rigid())
             continue;
           place.lower        = body.level_set.lower();

@@ -185,7 +185,7 @@ Simulation<dim>::move_geometry()
         {
           const auto q = rigid_unknowns(*fields, b, ghosted);
           for (unsigned int m = 0; m < q.size(); ++m)
-            predictor.of_rigid[b][m] = q[m] - bodies[b].pose[m];
+            predictor.of_rigid[b][m] = q[m] - bodies[b].pose.unknowns()[m];
           place_rigid_body(bodies[b], q, lattice_frame(), margin);
         }
   }
@@ -212,7 +212,7 @@ Simulation<dim>::start_step()
     if (bodies[b].is_rigid())
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         if (fields->owned().is_element(fields->rigid_unknown(b) + m))
-          state.displacement(fields->rigid_unknown(b) + m) = bodies[b].pose[m];
+          state.displacement(fields->rigid_unknown(b) + m) = bodies[b].pose.unknowns()[m];
   const StepEnd<dim> &end = state.step_end;
   for (unsigned int i = 0; i < end.multipliers.size(); ++i)
     if (fields->owned().is_element(fields->multiplier(i)))
@@ -265,9 +265,9 @@ Simulation<dim>::expected_increment(const unsigned int body, const dealii::Point
       const auto &increment = predictor.of_bodies[body];
       return factor * increment(x - increment(x));
     }
-  auto       next = bodies[body].pose;
-  const auto now  = RigidPose<dim>(*bodies[body].rigid, next);
-  const auto X    = now.initial_position(x);
+  const RigidPose<dim> &now  = bodies[body].pose;
+  auto                  next = now.unknowns();
+  const auto            X    = now.initial_position(x);
   for (unsigned int m = 0; m < next.size(); ++m)
     next[m] += factor * predictor.of_rigid[body][m];
   return RigidPose<dim>(*bodies[body].rigid, next).displacement(X) - now.displacement(X);
@@ -302,7 +302,7 @@ Simulation<dim>::predicted(const double time) const
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         if (fields->owned().is_element(fields->rigid_unknown(b) + m))
           result(fields->rigid_unknown(b) + m)
-            = bodies[b].pose[m] + factor * predictor.of_rigid[b][m];
+            = bodies[b].pose.unknowns()[m] + factor * predictor.of_rigid[b][m];
   result.compress(dealii::VectorOperation::insert);
   return result;
 }

@@ -133,8 +133,41 @@ dealii::Point<dim>
 initial_position(const Body<dim> &body, const dealii::Point<dim> &x)
 {
   if (body.is_rigid())
-    return RigidPose<dim>(*body.rigid, body.pose).initial_position(x);
+    return body.pose.initial_position(x);
   return body.displacement.is_empty() ? x : dealii::Point<dim>(x - body.displacement(x));
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+initial_gradient(const Body<dim> &body, const dealii::Point<dim> &x)
+{
+  if (body.is_rigid())
+    return body.pose.initial_gradient();
+  dealii::Tensor<2, dim> result = dealii::unit_symmetric_tensor<dim>();
+  if (body.displacement.is_empty())
+    return result;
+  const double spacing = body.level_set.spacing();
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      dealii::Point<dim> before = x, after = x;
+      before[d] -= 0.5 * spacing;
+      after[d] += 0.5 * spacing;
+      const dealii::Tensor<1, dim> slope
+        = (body.displacement(after) - body.displacement(before)) / spacing;
+      for (unsigned int i = 0; i < dim; ++i)
+        result[i][d] -= slope[i];
+    }
+  return result;
+}
+
+template <int dim>
+std::pair<double, dealii::Tensor<1, dim>>
+value_and_gradient(const Body<dim> &body, const SmoothPiece<dim> &piece,
+                   const dealii::Point<dim> &x)
+{
+  const dealii::Point<dim> X = initial_position(body, x);
+  return {piece.value(X),
+          piece.gradient(X, 1e-4 * body.level_set.spacing()) * initial_gradient(body, x)};
 }
 
 template <int dim>
@@ -169,6 +202,8 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
                                  conditions,
                                  {}});
       bodies.back().shape = shape;
+      if (is_rigid)
+        bodies.back().pose = RigidPose<dim>(*bodies.back().rigid, {});
     }
   return bodies;
 }
@@ -198,17 +233,20 @@ candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach)
   return pairs;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template struct BodyParameters<dim>;                                                         \
-  template struct Body<dim>;                                                                   \
-  template dealii::Point<dim> initial_position(const Body<dim> &, const dealii::Point<dim> &); \
-  template std::vector<BodyParameters<dim>> declare_bodies(ParameterSection &,                 \
-                                                           const std::vector<std::string> &);  \
-  template std::vector<Body<dim>>           make_bodies(                                       \
-              const std::vector<BodyParameters<dim>> &,                                        \
-              const std::map<std::string, std::shared_ptr<const Material<dim>>> &,             \
-              const LatticeFrame<dim> &, const double);                                        \
-  template std::vector<std::pair<unsigned int, unsigned int>> candidate_pairs(                 \
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template struct BodyParameters<dim>;                                                             \
+  template struct Body<dim>;                                                                       \
+  template dealii::Point<dim>     initial_position(const Body<dim> &, const dealii::Point<dim> &); \
+  template dealii::Tensor<2, dim> initial_gradient(const Body<dim> &, const dealii::Point<dim> &); \
+  template std::pair<double, dealii::Tensor<1, dim>> value_and_gradient(                           \
+    const Body<dim> &, const SmoothPiece<dim> &, const dealii::Point<dim> &);                      \
+  template std::vector<BodyParameters<dim>> declare_bodies(ParameterSection &,                     \
+                                                           const std::vector<std::string> &);      \
+  template std::vector<Body<dim>>           make_bodies(                                           \
+              const std::vector<BodyParameters<dim>> &,                                            \
+              const std::map<std::string, std::shared_ptr<const Material<dim>>> &,                 \
+              const LatticeFrame<dim> &, const double);                                            \
+  template std::vector<std::pair<unsigned int, unsigned int>> candidate_pairs(                     \
     const std::vector<Body<dim>> &, const double);
 
 SCREE_INSTANTIATE(2)

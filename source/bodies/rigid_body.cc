@@ -228,8 +228,20 @@ RigidBody<dim>::value(const unsigned int component, const double time) const
 }
 
 template <int dim>
+RigidPose<dim>::RigidPose()
+    : q()
+    , radius(1.)
+    , c()
+    , dc()
+    , ddc()
+    , R(dealii::unit_symmetric_tensor<3>())
+{
+}
+
+template <int dim>
 RigidPose<dim>::RigidPose(const RigidBody<dim> &body, const Unknowns &q)
-    : centre(body.reference_point)
+    : q(q)
+    , centre(body.reference_point)
     , radius(body.radius)
 {
   for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
@@ -265,6 +277,17 @@ RigidPose<dim>::initial_position(const dealii::Point<dim> &x) const
 {
   const dealii::Tensor<1, dim> arm = x - centre - shift;
   return x - shift + (product(transpose(R), arm) - arm);
+}
+
+template <int dim>
+dealii::Tensor<2, dim>
+RigidPose<dim>::initial_gradient() const
+{
+  dealii::Tensor<2, dim> result;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      result[i][j] = R[j][i];
+  return result;
 }
 
 template <int dim>

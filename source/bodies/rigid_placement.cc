@@ -82,7 +82,7 @@ place_rigid_body(Body<dim> &body, const typename RigidPose<dim>::Unknowns &q,
                  const LatticeFrame<dim> &frame, const double margin)
 {
   Assert(body.is_rigid(), dealii::ExcMessage("The body is not rigid."));
-  if (q == body.pose)
+  if (q == body.pose.unknowns())
     return;
   LatticeFrame<dim> wide_frame = frame;
   wide_frame.box.extend(margin);
@@ -95,7 +95,7 @@ place_rigid_body(Body<dim> &body, const typename RigidPose<dim>::Unknowns &q,
     = lattice.has_value()
         ? *std::move(lattice)
         : lattice_of_absent<dim>(shape, wide_frame, body.box.get_boundary_points().first, margin);
-  body.pose = q;
+  body.pose = pose;
 }
 
 template void place_rigid_body(Body<2> &, const RigidPose<2>::Unknowns &, const LatticeFrame<2> &,

@@ -11,20 +11,6 @@ foot_on_thin_body(const Body<dim> &body, const dealii::Point<dim> &x,
 {
   if (!body.shape || body.shape->is_smooth())
     return {};
-  const double step = 0.05 * reach;
-  // Value and gradient of a piece where the body is now.
-  const auto expand = [&](const SmoothPiece<dim> &piece, const dealii::Point<dim> &y) {
-    std::pair<double, dealii::Tensor<1, dim>> result;
-    result.first = piece.value(initial_position(body, y));
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const dealii::Tensor<1, dim> side = step * dealii::Point<dim>::unit_vector(d);
-        result.second[d]                  = (piece.value(initial_position<dim>(body, y + side))
-                            - piece.value(initial_position<dim>(body, y - side)))
-                           / (2. * step);
-      }
-    return result;
-  };
   const dealii::Point<dim> X = initial_position(body, x);
   dealii::BoundingBox<dim> box({X, X});
   box.extend(reach);
@@ -34,7 +20,7 @@ foot_on_thin_body(const Body<dim> &body, const dealii::Point<dim> &x,
   double smallest = reach;
   for (const auto &piece : pieces)
     {
-      const auto [value, gradient] = expand(piece, x);
+      const auto [value, gradient] = value_and_gradient(body, piece, x);
       const double cosine          = gradient * direction / (gradient.norm() * direction.norm());
       is_thin = is_thin || (cosine < -0.5 && std::abs(value) < reach * gradient.norm());
       const double distance = std::abs(value) / gradient.norm();
@@ -49,7 +35,7 @@ foot_on_thin_body(const Body<dim> &body, const dealii::Point<dim> &x,
   dealii::Point<dim> foot = x;
   for (unsigned int iteration = 0; iteration < 10; ++iteration)
     {
-      const auto [value, gradient] = expand(facing[0], foot);
+      const auto [value, gradient] = value_and_gradient(body, facing[0], foot);
       foot -= value / gradient.norm_square() * gradient;
       if (std::abs(value) < 1e-12 * reach * gradient.norm())
         break;

@@ -77,34 +77,47 @@ struct Side
 } // namespace
 
 template <int dim>
-dealii::Tensor<1, dim>
+ContactNormal<dim>
 contact_normal(const ExactDistances<dim> &distances, const std::vector<Body<dim>> &bodies,
                const unsigned int a, const unsigned int b, const dealii::Point<dim> &x,
                const double size, const dealii::Tensor<1, dim> &of_cut)
 {
-  constexpr double       facing = 0.9; // cosine
-  const Side<dim>        of_a(distances, bodies, a, x, size), of_b(distances, bodies, b, x, size);
-  dealii::Tensor<1, dim> normal = of_cut;
-  if (of_a.is_exact != of_b.is_exact && !(of_a.is_exact ? of_a : of_b).is_kinked)
-    normal = of_a.is_exact ? of_a.normal : -of_b.normal;
+  constexpr double   facing = 0.9; // cosine
+  const Side<dim>    of_a(distances, bodies, a, x, size), of_b(distances, bodies, b, x, size);
+  ContactNormal<dim> result{of_cut, NormalOf::both,
+                            (of_a.is_exact && of_a.is_kinked) || (of_b.is_exact && of_b.is_kinked)};
+  const auto         take = [&](const bool is_of_a) {
+    const Side<dim> &side = is_of_a ? of_a : of_b;
+    result.normal         = is_of_a ? side.normal : -side.normal;
+    if (side.is_exact)
+      result.of = is_of_a ? NormalOf::body_a : NormalOf::body_b;
+  };
+  const bool a_is_firm = of_a.is_exact && bodies[a].displacement.is_empty(),
+             b_is_firm = of_b.is_exact && bodies[b].displacement.is_empty();
+  if (a_is_firm != b_is_firm && !(a_is_firm ? of_a : of_b).is_kinked)
+    take(a_is_firm);
   else if (of_a.is_known && of_b.is_known)
     {
-      const bool face_each_other
-        = of_a.is_exact && of_b.is_exact && -(of_a.normal * of_b.normal) > facing;
-      normal = face_each_other || of_a.is_kinked == of_b.is_kinked ? of_a.normal - of_b.normal
-               : of_a.is_kinked                                    ? -of_b.normal
-                                                                   : of_a.normal;
+      const bool face_each_other = a_is_firm && b_is_firm && -(of_a.normal * of_b.normal) > facing;
+      if (face_each_other || of_a.is_kinked == of_b.is_kinked)
+        result.normal = of_a.normal - of_b.normal;
+      else
+        take(!of_a.is_kinked);
     }
   else if (of_a.is_known || of_b.is_known)
-    normal = of_a.is_known ? of_a.normal : -of_b.normal;
-  const double length = normal.norm();
-  return length > 0.1 ? normal / length : of_cut / of_cut.norm();
+    take(of_a.is_known);
+  const double length = result.normal.norm();
+  if (length > 0.1)
+    result.normal /= length;
+  else
+    result = {of_cut / of_cut.norm(), NormalOf::both, result.is_near_kink};
+  return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template bool                   is_smooth(const Lattice<dim> &, const dealii::Point<dim> &); \
-  template dealii::Tensor<1, dim> contact_normal(                                              \
-    const ExactDistances<dim> &, const std::vector<Body<dim>> &, const unsigned int,           \
+#define SCREE_INSTANTIATE(dim)                                                             \
+  template bool               is_smooth(const Lattice<dim> &, const dealii::Point<dim> &); \
+  template ContactNormal<dim> contact_normal(                                              \
+    const ExactDistances<dim> &, const std::vector<Body<dim>> &, const unsigned int,       \
     const unsigned int, const dealii::Point<dim> &, const double, const dealii::Tensor<1, dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -50,9 +50,8 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
           continue;
         if (partner_of_body.emplace(b, rigid_partners.size()).second)
           {
-            const RigidPose<dim> start(*body.rigid, body.pose);
             rigid_partners.push_back(
-              {b, body.rigid, fields.rigid_unknown(b), {}, start, start, {}});
+              {b, body.rigid, fields.rigid_unknown(b), {}, body.pose, body.pose, {}});
             for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
               if (body.rigid->is_free(m))
                 rigid_partners.back().free_components.push_back(m);
@@ -62,22 +61,26 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
 }
 
 template <int dim>
-void
-ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                  const Prediction          &prediction,
-                                  const ExactDistances<dim> &distances,
-                                  const InitialGaps<dim>    &initial_gaps,
-                                  const Vector *start_displacement, const Vector *secant_ratios)
+struct ContactPoints<dim>::Feet
 {
-  const auto                      box = fields.grid.box();
-  std::vector<unsigned int>       of_body;
-  std::vector<dealii::Point<dim>> projected;
-  const auto                      foot_on
+  std::vector<unsigned int>             bodies; //!< the deformable ones of each point
+  std::vector<dealii::Point<dim>>       on_deformable;
+  std::vector<std::array<RigidFoot, 2>> on_rigid; //!< of each point; empty without rigid bodies
+};
+
+template <int dim>
+typename ContactPoints<dim>::Feet
+ContactPoints<dim>::find_feet(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                              const Prediction &prediction, const ExactDistances<dim> &distances)
+{
+  Feet       feet;
+  const auto box = fields.grid.box();
+  const auto foot_on
     = [&](const unsigned int body, const dealii::Point<dim> &start, const bool is_exact) {
         return is_exact ? distances.foot(body, start)
                         : project(bodies[body].level_set, start, fields.basis.degree).point;
       };
-  std::vector<std::array<RigidFoot, 2>> feet(rigid_partners.empty() ? 0 : contact_points.size());
+  feet.on_rigid.resize(rigid_partners.empty() ? 0 : contact_points.size());
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
       ContactPoint<dim>        &point = contact_points[i];
@@ -86,7 +89,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
       dealii::Tensor<1, dim>    slide;
       if (prediction)
         {
-          const ExpectedSlide<dim> expected = expected_slide(point, pair, prediction);
+          const auto expected = expected_slide(point, pair, distances, prediction);
           point.initial_gap += (point.normal - expected.normal) * expected.jump;
           point.normal = expected.normal;
           slide        = expected.slide;
@@ -103,28 +106,71 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
                        .value_or(foot);
             for (unsigned int d = 0; d < dim; ++d)
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
-            of_body.push_back(body);
-            projected.push_back(foot);
+            feet.bodies.push_back(body);
+            feet.on_deformable.push_back(foot);
           }
-      for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
+      for (const RigidSide &side : rigid_sides_of_pair[point.pair])
         {
           const RigidPartner &partner = rigid_partners[side.partner];
-          RigidFoot          &foot    = feet[i][side.number()];
+          RigidFoot          &foot    = feet.on_rigid[i][side.number()];
           foot.X                      = partner.start_pose.initial_position(
                                  foot_on(partner.body, x - 0.5 * side.sign * slide, point.is_exact));
           foot.start = partner.start_pose.displacement(foot.X);
         }
     }
-  const std::vector<NodeStencil> stencils = fields.stencils(of_body, projected);
+  return feet;
+}
+
+template <int dim>
+void
+ContactPoints<dim>::append_stencil(const ContactPoint<dim>        &point,
+                                   const NodeWeights              &weights_and_sides,
+                                   std::vector<ContactPoint<dim>> &kept)
+{
+  const bool same
+    = !groups.empty() && groups.back().n_nodes == weights_and_sides.size()
+      && kept.back().pair == point.pair
+      && std::equal(weights_and_sides.begin(), weights_and_sides.end(),
+                    group_nodes.begin() + groups.back().first_node,
+                    [](const auto &entry, const DofIndex node) { return entry.first == node; });
+  if (same)
+    ++groups.back().n_points;
+  else
+    {
+      groups.push_back({static_cast<unsigned int>(kept.size()), 1,
+                        static_cast<unsigned int>(group_nodes.size()),
+                        static_cast<unsigned int>(weights_and_sides.size()),
+                        static_cast<unsigned int>(stencil_weights.size())});
+      for (const auto &[node, entry] : weights_and_sides)
+        {
+          group_nodes.push_back(node);
+          group_sides.push_back(entry.second);
+        }
+    }
+  for (const auto &[node, entry] : weights_and_sides)
+    stencil_weights.push_back(entry.first);
+  kept.push_back(point);
+}
+
+template <int dim>
+void
+ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                                  const Prediction          &prediction,
+                                  const ExactDistances<dim> &distances,
+                                  const InitialGaps<dim>    &initial_gaps,
+                                  const Vector *start_displacement, const Vector *secant_ratios)
+{
+  const Feet                     feet     = find_feet(fields, bodies, prediction, distances);
+  const std::vector<NodeStencil> stencils = fields.stencils(feet.bodies, feet.on_deformable);
   const Vector                   u_n      = values_at(stencils, start_displacement, dim);
   const Vector                   ratios   = values_at(stencils, secant_ratios, dim);
-
   std::vector<ContactPoint<dim>> kept;
   auto                           stencil = stencils.begin();
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
-      const ContactPair                    &pair = contact_pairs[contact_points[i].pair];
-      std::map<DofIndex, double>            jump, sides;
+      ContactPoint<dim>                    &point = contact_points[i];
+      const ContactPair                    &pair  = contact_pairs[point.pair];
+      NodeWeights                           weights_and_sides;
       bool                                  is_found   = true;
       double                                compliance = 0., secant_compliance = 0.;
       std::array<dealii::Tensor<1, dim>, 2> moved;
@@ -135,8 +181,8 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
             double ratio = secant_ratios ? 0. : 1.;
             for (const auto &[node, weight] : *stencil)
               {
-                jump[node] += sign * weight;
-                sides[node] = sign;
+                auto &entry = weights_and_sides[node];
+                entry       = {entry.first + sign * weight, sign};
                 if (secant_ratios)
                   ratio += weight * ratios(node);
                 for (unsigned int d = 0; d < dim && start_displacement; ++d)
@@ -149,37 +195,16 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
           }
       if (!is_found)
         continue; // the surface ends here: one of the bodies is clipped by the box
-      if (initial_gaps.are_needed(contact_points[i].pair))
+      if (initial_gaps.are_needed(point.pair))
         {
-          for (const RigidSide &side : rigid_sides_of_pair[contact_points[i].pair])
-            moved[side.number()] = feet[i][side.number()].start;
-          initial_gaps.apply(moved, contact_points[i]);
+          for (const RigidSide &side : rigid_sides_of_pair[point.pair])
+            moved[side.number()] = feet.on_rigid[i][side.number()].start;
+          initial_gaps.apply(moved, point);
         }
-      std::vector<DofIndex> nodes;
-      for (const auto &[node, weight] : jump)
-        nodes.push_back(node);
-      const bool same
-        = !groups.empty() && groups.back().n_nodes == nodes.size()
-          && kept.back().pair == contact_points[i].pair
-          && std::equal(nodes.begin(), nodes.end(), group_nodes.begin() + groups.back().first_node);
-      if (same)
-        ++groups.back().n_points;
-      else
-        {
-          groups.push_back({static_cast<unsigned int>(kept.size()), 1,
-                            static_cast<unsigned int>(group_nodes.size()),
-                            static_cast<unsigned int>(nodes.size()),
-                            static_cast<unsigned int>(stencil_weights.size())});
-          group_nodes.insert(group_nodes.end(), nodes.begin(), nodes.end());
-          for (const auto &[node, side] : sides)
-            group_sides.push_back(side);
-        }
-      for (const auto &[node, weight] : jump)
-        stencil_weights.push_back(weight);
-      kept.push_back(contact_points[i]);
+      append_stencil(point, weights_and_sides, kept);
       flow_ratios.push_back(compliance > 0. ? compliance / secant_compliance : 1.);
       if (!rigid_partners.empty())
-        contact_feet.push_back(feet[i]);
+        contact_feet.push_back(feet.on_rigid[i]);
     }
   contact_points = kept;
 }

@@ -11,19 +11,142 @@ namespace scree
 {
 namespace
 {
-/** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
+/** Cuts the contact surface of one pair from cells. */
 template <int dim>
-std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>>
-nodal_gradients(const LagrangeBasis<dim> &basis, const GridCell<dim> &cell, const Lattice<dim> &a,
-                const Lattice<dim> &b)
+class PairSurface
 {
-  std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> result;
+public:
+  PairSurface(const LagrangeBasis<dim> &basis, const LevelSetNodes<dim> &level_set_nodes,
+              const std::vector<Body<dim>> &bodies, const ContactPair &pair,
+              const ExactDistances<dim> &distances, const bool nodal_normals)
+      : basis(basis)
+      , level_set_nodes(level_set_nodes)
+      , bodies(bodies)
+      , pair(pair)
+      , a(bodies[pair.a])
+      , b(bodies[pair.b])
+      , distances(distances)
+      , nodal_normals(nodal_normals)
+      , is_kinked(has_kinks(a) || has_kinks(b))
+      , rules(basis)
+  {
+  }
+
+  /** Whether both bodies come so near to the cell that its points may be closer than `shift`. */
+  bool may_pass(const GridCell<dim> &cell, const double shift) const
+  {
+    const double reach = 0.5 * std::sqrt(double(dim)) * cell.size;
+    const double at_a  = a.level_set.value(centre(cell), 1),
+                 at_b  = b.level_set.value(centre(cell), 1);
+    return std::max(at_a, at_b) <= shift + 2. * reach && std::abs(at_a - at_b) <= 4. * reach;
+  }
+
+  /** Appends the points in cell c of the grid whose gap is at most `largest_gap` [L]. */
+  void append(const unsigned int c, const GridCell<dim> &cell, const unsigned int number,
+              const double largest_gap, std::vector<ContactPoint<dim>> &points);
+
+private:
+  using Values    = std::array<double, max_nodes_per_cell<dim>>;
+  using Gradients = std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>>;
+
+  static bool has_kinks(const Body<dim> &body)
+  {
+    return body.shape && !body.shape->is_smooth();
+  }
+
+  static dealii::Point<dim> centre(const GridCell<dim> &cell)
+  {
+    dealii::Point<dim> result = cell.lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] += 0.5 * cell.size;
+    return result;
+  }
+
+  /** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
+  Gradients nodal_gradients(const GridCell<dim> &cell) const;
+
+  /** The normal at x, where the nodal gradients have the mean `nodal`. */
+  std::pair<dealii::Tensor<1, dim>, NormalOf> normal(const dealii::Point<dim> &x, const double size,
+                                                     const dealii::Tensor<1, dim> &of_cut,
+                                                     const dealii::Tensor<1, dim> &nodal) const;
+
+  const LagrangeBasis<dim>     &basis;
+  const LevelSetNodes<dim>     &level_set_nodes;
+  const std::vector<Body<dim>> &bodies;
+  const ContactPair            &pair;
+  const Body<dim>              &a, &b;
+  const ExactDistances<dim>    &distances;
+  bool                          nodal_normals, is_kinked;
+  CutCellRules<dim>             rules;
+};
+
+template <int dim>
+typename PairSurface<dim>::Gradients
+PairSurface<dim>::nodal_gradients(const GridCell<dim> &cell) const
+{
+  Gradients result;
   for (unsigned int i = 0; i < basis.n_nodes; ++i)
     {
       const dealii::Point<dim> x = cell.lower + cell.size * dealii::Tensor<1, dim>(basis.node(i));
-      result[i] = a.value_and_gradient(x, 3).second - b.value_and_gradient(x, 3).second;
+      result[i]
+        = a.level_set.value_and_gradient(x, 3).second - b.level_set.value_and_gradient(x, 3).second;
     }
   return result;
+}
+
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, NormalOf>
+PairSurface<dim>::normal(const dealii::Point<dim> &x, const double size,
+                         const dealii::Tensor<1, dim> &of_cut,
+                         const dealii::Tensor<1, dim> &nodal) const
+{
+  const ContactNormal<dim> known
+    = contact_normal(distances, bodies, pair.a, pair.b, x, size, of_cut);
+  // Deformed surfaces are rough for some cells beside their edges.
+  if (nodal_normals && !known.is_near_kink && !(is_kinked && known.of != NormalOf::both))
+    return {nodal / nodal.norm(), NormalOf::both};
+  return {known.normal, known.of};
+}
+
+template <int dim>
+void
+PairSurface<dim>::append(const unsigned int c, const GridCell<dim> &cell, const unsigned int number,
+                         const double largest_gap, std::vector<ContactPoint<dim>> &points)
+{
+  Values phi_a, phi_b, psi, scaled, shape;
+  level_set_nodes.facing_values(c, a, -b.level_set.value_and_gradient(centre(cell), 1).second,
+                                phi_a.data());
+  level_set_nodes.facing_values(c, b, -a.level_set.value_and_gradient(centre(cell), 1).second,
+                                phi_b.data());
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    psi[i] = phi_a[i] - phi_b[i];
+  level_set_nodes.nudged(psi.data(), cell.size, scaled.data());
+  const unsigned int n_negative = std::count_if(scaled.begin(), scaled.begin() + basis.n_nodes,
+                                                [](const double value) { return value < 0.; });
+  if (n_negative == 0 || n_negative == basis.n_nodes)
+    return;
+  const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
+  const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
+  const Gradients       gradients  = nodal_normals ? nodal_gradients(cell) : Gradients();
+  for (unsigned int q = 0; q < surface.points.size(); ++q)
+    {
+      basis.evaluate_values(surface.points[q], shape.data());
+      double                 gap = 0.;
+      dealii::Tensor<1, dim> nodal;
+      for (unsigned int i = 0; i < basis.n_nodes; ++i)
+        {
+          gap += shape[i] * (phi_a[i] + phi_b[i]);
+          nodal += shape[i] * gradients[i];
+        }
+      // A contour through a vertex leaves points of no length in the cells that touch it.
+      if (gap > largest_gap || surface.weights[q] < negligible)
+        continue;
+      const dealii::Point<dim> x
+        = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
+      const auto [n, normal_of] = normal(x, cell.size, surface.normals[q], nodal);
+      points.push_back({number, x, n, surface.weights[q], gap, cell.size, n, gap});
+      points.back().normal_of = normal_of;
+    }
 }
 } // namespace
 
@@ -33,76 +156,28 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                 const double shift, const ExactDistances<dim> &distances, const bool nodal_normals)
 {
-  const LagrangeBasis<dim>                   &basis = fields.basis;
-  const BackgroundGrid<dim>                  &grid  = fields.grid;
-  CutCellRules<dim>                           rules(basis);
-  KinkedSurface<dim>                          kinked(distances, bodies, basis);
-  std::vector<ContactPoint<dim>>              surface_points;
-  std::array<double, max_nodes_per_cell<dim>> phi_a, phi_b, psi, scaled, shape;
+  const BackgroundGrid<dim>     &grid = fields.grid;
+  KinkedSurface<dim>             kinked(distances, bodies, fields.basis);
+  std::vector<ContactPoint<dim>> points;
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
-      const Lattice<dim> &a = bodies[pairs[p].a].level_set;
-      const Lattice<dim> &b = bodies[pairs[p].b].level_set;
+      PairSurface<dim> surface(fields.basis, level_set_nodes, bodies, pairs[p], distances,
+                               nodal_normals);
       for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
         {
-          const GridCell<dim> &cell   = grid.cells()[c];
-          dealii::Point<dim>   centre = cell.lower;
-          for (unsigned int d = 0; d < dim; ++d)
-            centre[d] += 0.5 * cell.size;
-          const double reach = 0.5 * std::sqrt(double(dim)) * cell.size;
-          const double at_a = a.value(centre, 1), at_b = b.value(centre, 1);
-          if (std::max(at_a, at_b) > shift + 2. * reach || std::abs(at_a - at_b) > 4. * reach)
+          const GridCell<dim> &cell = grid.cells()[c];
+          if (!surface.may_pass(cell, shift))
             continue;
           if (kinked.concerns(pairs[p], cell))
             {
-              const auto points = kinked.points(p, pairs[p], cell, 2. * shift);
-              surface_points.insert(surface_points.end(), points.begin(), points.end());
-              continue;
+              const auto of_cell = kinked.points(p, pairs[p], cell, 2. * shift);
+              points.insert(points.end(), of_cell.begin(), of_cell.end());
             }
-          level_set_nodes.facing_values(c, bodies[pairs[p].a],
-                                        -b.value_and_gradient(centre, 1).second, phi_a.data());
-          level_set_nodes.facing_values(c, bodies[pairs[p].b],
-                                        -a.value_and_gradient(centre, 1).second, phi_b.data());
-          unsigned int n_negative = 0;
-          for (unsigned int i = 0; i < basis.n_nodes; ++i)
-            psi[i] = phi_a[i] - phi_b[i];
-          level_set_nodes.nudged(psi.data(), cell.size, scaled.data());
-          for (unsigned int i = 0; i < basis.n_nodes; ++i)
-            n_negative += scaled[i] < 0.;
-          if (n_negative == 0 || n_negative == basis.n_nodes)
-            continue;
-          const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
-          const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
-          std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> gradients;
-          if (nodal_normals)
-            gradients = nodal_gradients<dim>(basis, cell, a, b);
-          for (unsigned int q = 0; q < surface.points.size(); ++q)
-            {
-              basis.evaluate_values(surface.points[q], shape.data());
-              double gap = 0.;
-              for (unsigned int i = 0; i < basis.n_nodes; ++i)
-                gap += shape[i] * (phi_a[i] + phi_b[i]);
-              // A contour through a vertex leaves points of no length in the cells that touch it.
-              if (gap > 2. * shift || surface.weights[q] < negligible)
-                continue;
-              const dealii::Point<dim> x
-                = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
-              dealii::Tensor<1, dim> normal;
-              if (nodal_normals)
-                {
-                  for (unsigned int i = 0; i < basis.n_nodes; ++i)
-                    normal += shape[i] * gradients[i];
-                  normal /= normal.norm();
-                }
-              else
-                normal = contact_normal(distances, bodies, pairs[p].a, pairs[p].b, x, cell.size,
-                                        surface.normals[q]);
-              surface_points.push_back(
-                {p, x, normal, surface.weights[q], gap, cell.size, normal, gap});
-            }
+          else
+            surface.append(c, cell, p, 2. * shift, points);
         }
     }
-  return surface_points;
+  return points;
 }
 
 #define SCREE_INSTANTIATE(dim)                                                       \

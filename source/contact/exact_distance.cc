@@ -1,3 +1,4 @@
+#include <scree/bodies/boundary_foot.h>
 #include <scree/contact/exact_distance.h>
 
 #include <algorithm>
@@ -10,12 +11,6 @@ ExactDistances<dim>::ExactDistances(const std::vector<Body<dim>> &bodies, const 
     : bodies(bodies)
     , step(1e-6 * size)
 {
-  for (const Body<dim> &body : bodies)
-    {
-      poses.emplace_back();
-      if (body.is_rigid())
-        poses.back().emplace(*body.rigid, body.pose);
-    }
 }
 
 template <int dim>
@@ -23,60 +18,71 @@ bool
 ExactDistances<dim>::is_known(const unsigned int body, const dealii::Point<dim> &x) const
 {
   const auto &shape = bodies[body].shape;
-  if (!shape || bodies[body].law)
+  if (!shape)
     return false;
   // Off the kinks, which may lie on grid lines.
-  constexpr double   aside[]       = {137., 261., 183.};
-  dealii::Point<dim> beside        = initial_position(body, x);
-  double             slope_squared = 0.;
+  constexpr double   aside[] = {137., 261., 183.};
+  dealii::Point<dim> beside  = initial_position(bodies[body], x);
   for (unsigned int d = 0; d < dim; ++d)
     beside[d] += aside[d] * step;
+  return std::abs(slope(*shape, beside).norm_square() - 1.) < 1e-3;
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+ExactDistances<dim>::slope(const Shape<dim> &shape, const dealii::Point<dim> &X) const
+{
+  dealii::Tensor<1, dim> result;
   for (unsigned int d = 0; d < dim; ++d)
     {
-      dealii::Point<dim> before = beside, after = beside;
+      dealii::Point<dim> before = X, after = X;
       before[d] -= 0.5 * step;
       after[d] += 0.5 * step;
-      const double slope = (shape->signed_distance(after) - shape->signed_distance(before)) / step;
-      slope_squared += slope * slope;
+      result[d] = (shape.signed_distance(after) - shape.signed_distance(before)) / step;
     }
-  return std::abs(slope_squared - 1.) < 1e-3;
+  return result;
 }
 
 template <int dim>
 double
 ExactDistances<dim>::value(const unsigned int body, const dealii::Point<dim> &x) const
 {
-  return bodies[body].shape->signed_distance(initial_position(body, x));
+  return has_deformed(body)
+           ? foot_and_normal(body, x).distance
+           : bodies[body].shape->signed_distance(initial_position(bodies[body], x));
 }
 
 template <int dim>
-dealii::Tensor<1, dim>
-ExactDistances<dim>::gradient(const unsigned int body, const dealii::Point<dim> &x) const
+BoundaryFoot<dim>
+ExactDistances<dim>::foot_and_normal(const unsigned int body, const dealii::Point<dim> &x) const
 {
-  dealii::Tensor<1, dim> result;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      dealii::Point<dim> before = x, after = x;
-      before[d] -= 0.5 * step;
-      after[d] += 0.5 * step;
-      result[d] = (value(body, after) - value(body, before)) / step;
-    }
-  return result;
+  const Body<dim> &b = bodies[body];
+  if (has_deformed(body))
+    if (const auto foot = foot_on_boundary(b, x))
+      return *foot;
+  // To first order, exact where the body has not deformed.
+  const dealii::Point<dim> X        = initial_position(b, x);
+  dealii::Tensor<1, dim>   normal   = slope(*b.shape, X) * initial_gradient(b, x);
+  const double             length   = std::max(0.1, normal.norm());
+  double                   distance = b.shape->signed_distance(X);
+  normal /= length;
+  if (has_deformed(body))
+    distance /= length;
+  return {x - distance * normal, normal, distance};
 }
 
 template <int dim>
 dealii::Tensor<1, dim>
 ExactDistances<dim>::normal(const unsigned int body, const dealii::Point<dim> &x) const
 {
-  const dealii::Tensor<1, dim> slope = gradient(body, x);
-  return slope / std::max(0.1, slope.norm());
+  return foot_and_normal(body, x).normal;
 }
 
 template <int dim>
 dealii::Point<dim>
 ExactDistances<dim>::foot(const unsigned int body, const dealii::Point<dim> &x) const
 {
-  return x - value(body, x) * normal(body, x);
+  return foot_and_normal(body, x).point;
 }
 
 template <int dim>
@@ -88,7 +94,7 @@ ExactDistances<dim>::is_kinked(const unsigned int body, const dealii::BoundingBo
     return false;
   std::vector<dealii::Point<dim>> corners;
   for (unsigned int v = 0; v < 1u << dim; ++v)
-    corners.push_back(initial_position(body, box.vertex(v)));
+    corners.push_back(initial_position(bodies[body], box.vertex(v)));
   std::vector<SmoothPiece<dim>> pieces;
   shape->append_pieces(dealii::BoundingBox<dim>(corners), pieces);
   return pieces.size() > 1;

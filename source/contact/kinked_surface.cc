@@ -1,6 +1,8 @@
 #include <scree/contact/contact_normal.h>
 #include <scree/contact/kinked_surface.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -120,7 +122,7 @@ KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
   const CellPoints<dim> surface = rules.rules(scaled.data(), size).surface;
   for (unsigned int q = 0; q < surface.points.size(); ++q)
     {
-      Piece piece{place(surface.points[q]), surface.weights[q], {}, {}, 0};
+      Piece piece{place(surface.points[q]), surface.weights[q], {}, {}, 0, {}};
       // The smallest points lie next to the kinks: a corner may carry a force alone.
       piece.group = depth < most / 2 ? 0 : depth < most - 1 ? 1 : 2;
       piece.n_a   = distances.normal(pair.a, piece.x);
@@ -132,14 +134,10 @@ KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
 }
 
 template <int dim>
-std::vector<ContactPoint<dim>>
-KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
-                           const GridCell<dim> &cell, const double largest_gap)
+std::vector<typename KinkedSurface<dim>::Piece>
+KinkedSurface<dim>::joined_pieces() const
 {
-  constexpr double same = 0.97, facing = 0.9; // cosines
-  pieces.clear();
-  divide(pair, cell, cell.lower, 0);
-  // Sums over the pieces of a point: x holds the sum of weight x.
+  constexpr double   same = 0.97; // cosine
   std::vector<Piece> joined;
   for (const Piece &piece : pieces)
     {
@@ -149,28 +147,65 @@ KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
                && piece.n_b * other.n_b > same * piece.n_b.norm() * other.n_b.norm();
       });
       if (it == joined.end())
-        it = joined.insert(joined.end(), {dealii::Point<dim>(), 0., {}, {}, piece.group});
+        it = joined.insert(joined.end(), {dealii::Point<dim>(), 0., {}, {}, piece.group, {}});
       it->x += piece.weight * dealii::Tensor<1, dim>(piece.x);
       it->weight += piece.weight;
       it->n_a += piece.weight * piece.n_a;
       it->n_b += piece.weight * piece.n_b;
+      it->square += piece.weight * dealii::symmetrize(dealii::outer_product(piece.x, piece.x));
     }
+  for (Piece &piece : joined)
+    {
+      piece.x /= piece.weight;
+      piece.square /= piece.weight;
+      piece.square -= dealii::symmetrize(dealii::outer_product(piece.x, piece.x));
+    }
+  return joined;
+}
+
+template <int dim>
+std::vector<dealii::Point<dim>>
+KinkedSurface<dim>::places(const Piece &piece) const
+{
+  if (basis.degree == 1)
+    return {piece.x};
+  std::vector<dealii::Point<dim>> result;
+  const auto                      principal = dealii::eigenvectors(piece.square);
+  for (unsigned int k = 0; k < dim - 1; ++k)
+    for (const double sign : {-1., 1.})
+      result.push_back(piece.x
+                       + sign * std::sqrt((dim - 1) * std::max(0., principal[k].first))
+                           * principal[k].second);
+  return result;
+}
+
+template <int dim>
+std::vector<ContactPoint<dim>>
+KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
+                           const GridCell<dim> &cell, const double largest_gap)
+{
+  constexpr double facing = 0.9; // cosine
+  pieces.clear();
+  divide(pair, cell, cell.lower, 0);
   const double                   negligible = 1e-8 * std::pow(cell.size, dim - 1);
   std::vector<ContactPoint<dim>> result;
-  for (Piece &point : joined)
+  for (const Piece &piece : joined_pieces())
     {
-      if (point.weight < negligible)
+      if (piece.weight < negligible)
         continue;
-      point.x /= point.weight;
-      const double gap = distances.value(pair.a, point.x) + distances.value(pair.b, point.x);
-      if (gap > largest_gap)
-        continue;
-      const auto normal = contact_normal(distances, bodies, pair.a, pair.b, point.x, cell.size,
-                                         point.n_a - point.n_b);
       const bool is_beyond
-        = -(point.n_a * point.n_b) < facing * point.n_a.norm() * point.n_b.norm();
-      result.push_back({number, point.x, normal, point.weight, gap, cell.size, normal, gap, false,
-                        true, is_beyond});
+        = -(piece.n_a * piece.n_b) < facing * piece.n_a.norm() * piece.n_b.norm();
+      const auto x_of_points = places(piece);
+      for (const dealii::Point<dim> &x : x_of_points)
+        {
+          const double gap = distances.value(pair.a, x) + distances.value(pair.b, x);
+          if (gap > largest_gap)
+            continue;
+          const ContactNormal<dim> n = contact_normal(distances, bodies, pair.a, pair.b, x,
+                                                      cell.size, piece.n_a - piece.n_b);
+          result.push_back({number, x, n.normal, piece.weight / x_of_points.size(), gap, cell.size,
+                            n.normal, gap, false, true, is_beyond, n.of});
+        }
     }
   return result;
 }

@@ -105,15 +105,8 @@ LevelSetNodes<dim>::facing_values(const unsigned int cell, const Body<dim> &body
     std::vector<Side>        result;
     for (const auto &piece : pieces)
       {
-        dealii::Tensor<1, dim> slope;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const dealii::Tensor<1, dim> step = 0.1 * size * dealii::Point<dim>::unit_vector(d);
-            slope[d]                          = (piece.value(initial_position<dim>(body, x + step))
-                        - piece.value(initial_position<dim>(body, x - step)))
-                       / (0.2 * size);
-          }
-        const double distance = piece.value(nodes[i]) / slope.norm();
+        const dealii::Tensor<1, dim> slope    = value_and_gradient(body, piece, x).second;
+        const double                 distance = piece.value(nodes[i]) / slope.norm();
         if (std::abs(distance) <= 1.001 * reach)
           result.push_back({distance, slope * towards > -0.5 * slope.norm() * towards.norm()});
       }

@@ -353,7 +353,7 @@ TEST(MovingContact, RigidBodyStartsInAPose)
   here.evaluate(own, here.initial_history());
   EXPECT_NEAR(model.bodies[1].rigid->radius, ball.rigid->radius, 1e-12);
   model.bodies[1].rigid  = ball.rigid;
-  model.bodies[1].pose   = ball.q;
+  model.bodies[1].pose   = RigidPose<2>(*ball.rigid, ball.q);
   ContactPoints<2> posed = contact_points(model, ContactLaw::stick);
   ASSERT_EQ(posed.points().size(), here.points().size());
   ASSERT_GT(posed.points().size(), 8u);
@@ -379,7 +379,7 @@ compare_tangent()
   PosedBall<dim>  ball;
   CutBodies<dim> &model          = *ball.model;
   model.bodies[1].rigid          = ball.rigid;
-  model.bodies[1].pose           = ball.q;
+  model.bodies[1].pose           = RigidPose<dim>(*ball.rigid, ball.q);
   ContactPoints<dim>     contact = contact_points(model, ContactLaw::stick);
   const auto             history = contact.initial_history();
   DynamicSparsityPattern pattern(model.fields->n_dofs());

@@ -56,8 +56,8 @@ struct Body
   std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
   /** The level set at the start of a run with moving geometry; null for rigid bodies. */
   std::shared_ptr<const Lattice<dim>> initial_level_set = nullptr;
-  /** Unknowns of the pose in which level_set and box show a rigid body [L]. */
-  typename RigidPose<dim>::Unknowns pose = {};
+  /** The pose in which level_set and box show a rigid body. */
+  RigidPose<dim> pose = {};
   /** At the start of a run; null if the body's motion has left it unknown. */
   std::shared_ptr<const Shape<dim>> shape = nullptr;
   /** u = x - X where the body is now, X where it was at the start; empty if it has not moved. */
@@ -73,6 +73,18 @@ struct Body
  */
 template <int dim>
 dealii::Point<dim> initial_position(const Body<dim> &body, const dealii::Point<dim> &x);
+
+/** dX/dx = F^-1 of initial_position(), where the body has deformed by central differences over a
+ * spacing of its lattice: continuous. */
+template <int dim>
+dealii::Tensor<2, dim> initial_gradient(const Body<dim> &body, const dealii::Point<dim> &x);
+
+/** The level set phi(X(x)) of a piece of the body's shape where the body is now, and its gradient.
+ */
+template <int dim>
+std::pair<double, dealii::Tensor<1, dim>> value_and_gradient(const Body<dim>          &body,
+                                                             const SmoothPiece<dim>   &piece,
+                                                             const dealii::Point<dim> &x);
 
 /**
  * Builds the bodies: shape -> lattice, with `margin` [L] around the shape. Rigid bodies may lie

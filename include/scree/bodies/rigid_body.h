@@ -91,7 +91,16 @@ class RigidPose
 public:
   using Unknowns = std::array<double, n_rigid_components<dim>>;
 
+  /** Where a body was at the start: q = 0. */
+  RigidPose();
+
   RigidPose(const RigidBody<dim> &body, const Unknowns &q);
+
+  /** q = (U, L theta) [L]. */
+  const Unknowns &unknowns() const
+  {
+    return q;
+  }
 
   /** U [L]. */
   dealii::Tensor<1, dim> translation() const
@@ -110,6 +119,9 @@ public:
 
   /** X of the point that is at x: the inverse of X + u(X). */
   dealii::Point<dim> initial_position(const dealii::Point<dim> &x) const;
+
+  /** dX/dx = R^T of that inverse. */
+  dealii::Tensor<2, dim> initial_gradient() const;
 
   /** du/dq at the initial position X, component by component. */
   std::array<dealii::Tensor<1, dim>, n_rigid_components<dim>>
@@ -144,6 +156,7 @@ public:
   dealii::Tensor<2, 3> generalised_moment_derivative(const dealii::Tensor<1, 3> &moment) const;
 
 private:
+  Unknowns                            q;
   dealii::Point<dim>                  centre;
   double                              radius;
   dealii::Tensor<1, dim>              shift;

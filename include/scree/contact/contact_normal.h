@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/contact/exact_distance.h>
+#include <scree/contact/contact_surface.h>
 
 namespace scree
 {
@@ -13,15 +13,24 @@ namespace scree
 template <int dim>
 bool is_smooth(const Lattice<dim> &level_set, const dealii::Point<dim> &x);
 
+/** What contact_normal() tells. */
+template <int dim>
+struct ContactNormal
+{
+  dealii::Tensor<1, dim> normal;
+  NormalOf               of;           //!< the body whose exact distance has it
+  bool                   is_near_kink; //!< of a body whose exact distance is known
+};
+
 /**
  * Unit normal from a to b at a point x of the surface phi_a = phi_b between them, with the
  * gradients n_a, n_b of the exact distances where those are known, else of the cubic interpolants
  * where the lattice is smooth:
  *
- *     n_a or -n_b   one of them is exact, without edges or corners near x: a rigid body among
- *                   deformed ones, whose lattices are as rough as their motion
- *     n_a - n_b     both are exact and face each other (to 25 degrees), or neither or both bodies
- *                   have edges or corners near x
+ *     n_a or -n_b   one of them is exact and has not deformed, without edges or corners near x: a
+ *                   rigid body among deformed ones, which are as rough as their motion
+ *     n_a - n_b     both are exact, have not deformed and face each other (to 25 degrees), or
+ *                   neither or both bodies have edges or corners near x
  *     n_a or -n_b   of the body without edges and corners
  *     of_cut        none is known
  *
@@ -30,8 +39,8 @@ bool is_smooth(const Lattice<dim> &level_set, const dealii::Point<dim> &x);
  * @param size of the cell; kinks up to 1.5 cells from the feet are near
  */
 template <int dim>
-dealii::Tensor<1, dim> contact_normal(const ExactDistances<dim>    &distances,
-                                      const std::vector<Body<dim>> &bodies, const unsigned int a,
-                                      const unsigned int b, const dealii::Point<dim> &x,
-                                      const double size, const dealii::Tensor<1, dim> &of_cut);
+ContactNormal<dim> contact_normal(const ExactDistances<dim>    &distances,
+                                  const std::vector<Body<dim>> &bodies, const unsigned int a,
+                                  const unsigned int b, const dealii::Point<dim> &x,
+                                  const double size, const dealii::Tensor<1, dim> &of_cut);
 } // namespace scree

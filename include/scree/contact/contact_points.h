@@ -11,6 +11,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +42,7 @@ template <int dim>
 class ContactPoints
 {
 public:
-  using Vector = dealii::TrilinosWrappers::MPI::Vector;
-
+  using Vector     = dealii::TrilinosWrappers::MPI::Vector;
   using Prediction = IncrementPrediction<dim>;
 
   /**
@@ -99,8 +99,7 @@ public:
    */
   void freeze_friction(const bool freeze);
 
-  /** Largest overlap of each pair without displacement, 0: none; tied ones have none. Collective.
-   */
+  /** Largest overlap of each pair without displacement; tied ones have none. Collective. */
   std::vector<double> overlaps(const MPI_Comm communicator) const;
 
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
@@ -176,6 +175,12 @@ private:
                      const Prediction &prediction, const ExactDistances<dim> &distances,
                      const InitialGaps<dim> &initial_gaps, const Vector *start_displacement,
                      const Vector *secant_ratios);
+  struct Feet; //!< where the displacements of all points are taken
+  Feet find_feet(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                 const Prediction &prediction, const ExactDistances<dim> &distances);
+  using NodeWeights = std::map<DofIndex, std::pair<double, double>>; //!< in the jump, and side
+  void append_stencil(const ContactPoint<dim> &point, const NodeWeights &weights_and_sides,
+                      std::vector<ContactPoint<dim>> &kept);
 
   /** Adds B^T D B, D given at each point; nothing for groups without stiffness. */
   void                   add_to_matrix(const std::vector<dealii::Tensor<2, dim>> &stiffness,

@@ -17,6 +17,14 @@ struct ContactPair
   ContactPairParameters law;
 };
 
+/** The body whose surface has a normal, turned to point from a to b. */
+enum class NormalOf
+{
+  both,
+  body_a,
+  body_b
+};
+
 /** A quadrature point of the intermediate surface between two bodies. */
 template <int dim>
 struct ContactPoint
@@ -32,6 +40,7 @@ struct ContactPoint
   bool                   is_glued     = false; //!< of a tied pair, closed when the run began
   bool                   is_exact     = false; //!< near a kink, from exact distances
   bool                   is_beyond = false; //!< an edge: the surfaces there do not face each other
+  NormalOf               normal_of = NormalOf::both; //!< known from exact distances
 };
 
 /**
@@ -39,8 +48,8 @@ struct ContactPoint
  * cells of this process (method.md section 8).
  *
  * @param shift bound on phi on the contact surface [L]
- * @param nodal_normals interpolates normals from gradients at the nodes, for surfaces that slide on
- *                      a moving geometry; else they are those of contact_normal()
+ * @param nodal_normals interpolates normals away from edges and corners from gradients at the
+ * nodes, for surfaces that slide on a moving geometry; else they are those of contact_normal()
  */
 template <int dim>
 std::vector<ContactPoint<dim>>

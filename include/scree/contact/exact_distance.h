@@ -1,16 +1,16 @@
 #pragma once
 
-#include <scree/bodies/body.h>
+#include <scree/bodies/boundary_foot.h>
 
-#include <optional>
 #include <vector>
 
 namespace scree
 {
 /**
- * The distances to the bodies from their shapes phi_0, where the lattices round edges and corners
- * by a part of a spacing: phi_0(X), X the initial position of x, of bodies that stay and of rigid
- * ones. Nothing is known of deformable bodies on a moving geometry.
+ * The distances to the bodies where they are now from their shapes phi_0, where the lattices round
+ * edges and corners by a part of a spacing: phi_0(X), X the initial position of x, of bodies that
+ * stay and of rigid ones; of deformed ones the distance to the moved boundary phi_0(X(y)) = 0.
+ * Nothing is known of bodies whose level sets are advected.
  */
 template <int dim>
 class ExactDistances
@@ -35,15 +35,16 @@ public:
   bool is_kinked(const unsigned int body, const dealii::BoundingBox<dim> &box) const;
 
 private:
-  /** Where a point of the body was at the start. */
-  dealii::Point<dim> initial_position(const unsigned int body, const dealii::Point<dim> &x) const
+  bool has_deformed(const unsigned int body) const
   {
-    return poses[body] ? poses[body]->initial_position(x) : x;
+    return !bodies[body].displacement.is_empty();
   }
-  dealii::Tensor<1, dim> gradient(const unsigned int body, const dealii::Point<dim> &x) const;
+  BoundaryFoot<dim> foot_and_normal(const unsigned int body, const dealii::Point<dim> &x) const;
 
-  const std::vector<Body<dim>>              &bodies;
-  double                                     step; //!< of differences [L]
-  std::vector<std::optional<RigidPose<dim>>> poses;
+  /** grad phi_0 by differences. */
+  dealii::Tensor<1, dim> slope(const Shape<dim> &shape, const dealii::Point<dim> &X) const;
+
+  const std::vector<Body<dim>> &bodies;
+  double                        step; //!< of differences [L]
 };
 } // namespace scree

@@ -4,7 +4,6 @@
 #include <scree/contact/exact_distance.h>
 #include <scree/discretization/cut_quadrature.h>
 
-#include <optional>
 #include <vector>
 
 namespace scree
@@ -14,7 +13,9 @@ namespace scree
  * kinked distance moves the end of a face by up to a cell; here the cell is halved towards the
  * kinks, 8 times (2D) or 4 times (3D), with the exact distances in each part. The points of all
  * parts that lie in the same quadrant of the cell, have similar sizes and the same normals of both
- * bodies are joined to one, with the sum of their weights and the mean of their places.
+ * bodies are joined, with the sum of their weights: to one point at the mean of their places, which
+ * integrates linear functions, or for k = 2 to 2 (dim - 1) points that have their second moments
+ * along the surface.
  */
 template <int dim>
 class KinkedSurface
@@ -31,16 +32,21 @@ public:
                                         const GridCell<dim> &cell, const double largest_gap);
 
 private:
-  /** A point of a part of the cell. */
+  /** A point of a part of the cell, or several of them joined. */
   struct Piece
   {
-    dealii::Point<dim>     x;
-    double                 weight;
-    dealii::Tensor<1, dim> n_a, n_b; //!< out of the bodies
-    unsigned int           group;    //!< by quadrant and size of the part
+    dealii::Point<dim>              x;
+    double                          weight;
+    dealii::Tensor<1, dim>          n_a, n_b; //!< out of the bodies
+    unsigned int                    group;    //!< by quadrant and size of the part
+    dealii::SymmetricTensor<2, dim> square;   //!< mean of (x - mean x)^2 [L^2]
   };
   void divide(const ContactPair &pair, const GridCell<dim> &cell, const dealii::Point<dim> &lower,
               const unsigned int depth);
+
+  std::vector<Piece> joined_pieces() const;
+  /** The quadrature points of a joined piece, of the same weights. */
+  std::vector<dealii::Point<dim>> places(const Piece &piece) const;
 
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;

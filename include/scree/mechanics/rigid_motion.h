@@ -30,7 +30,7 @@ public:
   {
     if (body.is_rigid())
       {
-        centre = body.rigid->reference_point + RigidPose<dim>(*body.rigid, body.pose).translation();
+        centre = body.rigid->reference_point + body.pose.translation();
         size   = body.rigid->radius;
         return;
       }
