@@ -184,6 +184,7 @@ Simulation<dim>::run()
   dealii::Timer wall;
   unsigned int  attempts = 1;
   resolve_overlap();
+  settle();
   while (!step_control.finished())
     if (solve_step(step_control.next_time()))
       {

@@ -93,7 +93,8 @@ Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u) con
     {
       // Residuals of the nodes may all point the same way.
       const double allowed = largest_imbalance * balance.force_scale
-                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion;
+                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion
+                             + 2. * equilibrium->neutral_force(balance.body);
       // On a moving geometry points are where they were at the start of the step.
       const double allowed_moment
         = 2. * balance.radius * allowed

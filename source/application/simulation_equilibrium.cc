@@ -172,6 +172,14 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     const Timings::Scope scope(timings, "residual");
     equilibrium->residual(u, state.contact, r);
   };
+  hooks.advance = [&](const Vector &du, Vector &u) { equilibrium->advance(du, u); };
+  hooks.balance = [&](Vector &u) {
+    const Timings::Scope scope(timings, "residual");
+    const bool has_moved = equilibrium->balance_rigid_motions(u, state.contact).has_value();
+    if (has_moved)
+      equilibrium->set_prescribed(u);
+    return has_moved;
+  };
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
     const auto solved = solve_linear_system(r, tolerance, du);
     record.linear_iterations += solved.iterations;
@@ -273,9 +281,9 @@ Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double 
     {
       equilibrium->accept(u, state.contact);
       equilibrium->count_overlap();
-      state.displacement  = u;
-      state.contact       = contact->current_history();
-      overlap_is_resolved = true;
+      state.displacement = u;
+      state.contact      = contact->current_history();
+      geometry_has_moved = true;
       if (is_moving())
         move_geometry();
     }
@@ -319,6 +327,38 @@ Simulation<dim>::resolve_overlap()
 }
 
 template <int dim>
+void
+Simulation<dim>::settle()
+{
+  constexpr unsigned int max_moves = 200;
+  if (step_control.n_accepted() > 0 || !is_moving() || equilibrium->free_bodies().empty())
+    return;
+  constexpr double negligible = 1e-3;
+  unsigned int     n_moves    = 0;
+  for (; n_moves < max_moves; ++n_moves)
+    {
+      auto u = state.displacement, r = u, unused = u;
+      equilibrium->set_time(step_control.next_time(), unused);
+      equilibrium->residual(u, state.contact, r);
+      const auto work = equilibrium->balance_rigid_motions(u, state.contact, true);
+      equilibrium->set_time(state.time, unused);
+      if (!work || *work < negligible)
+        break;
+      equilibrium->residual(u, state.contact, r);
+      points_at_end = moved_points(u);
+      equilibrium->accept(u, state.contact);
+      equilibrium->count_overlap();
+      state.displacement = u;
+      state.contact      = contact->current_history();
+      geometry_has_moved = true;
+      move_geometry();
+    }
+  if (n_moves > 0)
+    log.line("Bodies that nothing holds fall until contact does, in " + std::to_string(n_moves)
+             + " move(s)");
+}
+
+template <int dim>
 double
 Simulation<dim>::unbalanced_part(const double time, typename FreeBodies<dim>::Coordinates &motion)
 {
@@ -358,6 +398,7 @@ Simulation<dim>::require_equilibrium_exists()
   template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
   template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
   template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
+  template void Simulation<dim>::settle();                                                         \
   template void Simulation<dim>::resolve_overlap();                                                \
   template bool Simulation<dim>::solve_step(const double);                                         \
   template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \

@@ -102,6 +102,27 @@ ContactPoints<dim>::rigid_load(const unsigned int body) const
 }
 
 template <int dim>
+ContactResponse<dim>
+ContactPoints<dim>::response(const unsigned int p, const dealii::Tensor<1, dim> &jump,
+                             const ContactHistory<dim> &history) const
+{
+  const ContactPoint<dim> &point   = contact_points[p];
+  const auto              &law     = contact_pairs[point.pair].law;
+  const bool               is_tied = law.law == ContactLaw::tied;
+  const ContactLaw         acting  = is_tied && !point.is_glued             ? ContactLaw::none
+                                     : !is_tied && !pair_allowances.empty() ? ContactLaw::frictionless
+                                                                            : law.law;
+  const double             gap
+    = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
+  return contact_response<dim>(acting, law.friction_coefficient,
+                               {gap, point.normal, jump, history.jump[p], history.tau[p],
+                                history.pressure[p], eps_n(p), eps_t(p),
+                                touching_holds ? 1e-8 * point.cell_size : 0.,
+                                frozen_limits.empty() ? -1. : frozen_limits[p],
+                                frozen_limits.empty() ? 1. : frozen_closed_parts[p]});
+}
+
+template <int dim>
 void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
@@ -140,28 +161,15 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               jump += side.sign * motion;
               sum += motion;
             }
-          const ContactPoint<dim> &point   = contact_points[p];
-          const auto              &law     = contact_pairs[point.pair].law;
-          const bool               is_tied = law.law == ContactLaw::tied;
-          contact_jumps[p]                 = jump;
-          contact_means[p]                 = 0.5 * sum;
-          const ContactLaw acting          = is_tied && !point.is_glued ? ContactLaw::none
-                                             : !is_tied && !pair_allowances.empty()
-                                               ? ContactLaw::frictionless
-                                               : law.law;
-          const double     gap
-            = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
-          contact_responses[p] = contact_response<dim>(
-            acting, law.friction_coefficient,
-            {gap, point.normal, jump, history.jump[p], history.tau[p], history.pressure[p],
-             eps_n(p), eps_t(p), touching_holds ? 1e-8 * point.cell_size : 0.,
-             frozen_limits.empty() ? -1. : frozen_limits[p],
-             frozen_limits.empty() ? 1. : frozen_closed_parts[p]});
+          contact_jumps[p]     = jump;
+          contact_means[p]     = 0.5 * sum;
+          contact_responses[p] = response(p, jump, history);
           for (const RigidSide &side : rigid_sides(group))
             rigid_partners[side.partner].load.add(
               contact_feet[p][side.number()].X
                 - rigid_partners[side.partner].rigid->reference_point,
-              side.sign * point.weight * contact_responses[p].traction(point.normal));
+              side.sign * contact_points[p].weight
+                * contact_responses[p].traction(contact_points[p].normal));
         }
     }
 }

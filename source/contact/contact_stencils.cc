@@ -108,13 +108,15 @@ ContactPoints<dim>::find_feet(const Fields<dim> &fields, const std::vector<Body<
               foot[d] = std::clamp(foot[d], box.lower_bound(d), box.upper_bound(d));
             feet.bodies.push_back(body);
             feet.on_deformable.push_back(foot);
+            point.feet[body == pair.a ? 0 : 1] = foot;
           }
       for (const RigidSide &side : rigid_sides_of_pair[point.pair])
         {
           const RigidPartner &partner = rigid_partners[side.partner];
           RigidFoot          &foot    = feet.on_rigid[i][side.number()];
-          foot.X                      = partner.start_pose.initial_position(
-                                 foot_on(partner.body, x - 0.5 * side.sign * slide, point.is_exact));
+          point.feet[side.number()]
+            = foot_on(partner.body, x - 0.5 * side.sign * slide, point.is_exact);
+          foot.X     = partner.start_pose.initial_position(point.feet[side.number()]);
           foot.start = partner.start_pose.displacement(foot.X);
         }
     }

@@ -23,7 +23,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , contact(contact)
     , supports(fields, bodies, bulk.step_start())
     , rigid(fields, bodies, contact)
-    , free(fields, bodies, supports, boundary_terms, contact)
+    , free(fields, bodies, supports, boundary_terms, contact, bulk.step_start() != nullptr)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
@@ -169,80 +169,6 @@ Equilibrium<dim>::has_free_rigid_bodies() const
 
 template <int dim>
 void
-Equilibrium<dim>::shorten(Vector &du, const double length) const
-{
-  const std::vector<unsigned int> loose   = free.not_held();
-  double                          largest = 0.;
-  for (unsigned int i = 0; i < free_bodies().size() && !loose.empty(); ++i)
-    if (std::find(loose.begin(), loose.end(), free_bodies()[i].body) != loose.end())
-      for (const DofIndex unknown : free.unknowns(i))
-        largest = std::max(largest, std::abs(du(unknown)));
-  largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
-  if (largest > length)
-    du *= length / largest;
-}
-
-template <int dim>
-void
-Equilibrium<dim>::set_artificial_mass(const double factor)
-{
-  mass_factor = factor;
-}
-
-template <int dim>
-double
-Equilibrium<dim>::artificial_work(const Vector &du) const
-{
-  double work = 0.;
-  for (unsigned int i = 0; i < free_bodies().size(); ++i)
-    for (const DofIndex unknown : free.unknowns(i))
-      work += mass_factor * artificial_mass(unknown) * du(unknown) * du(unknown);
-  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
-}
-
-template <int dim>
-typename FreeBodies<dim>::Coordinates
-Equilibrium<dim>::loads_on_free_bodies() const
-{
-  Vector forces(internal_forces);
-  reactions(forces);
-  forces += contact_forces;
-  forces *= -1.;
-  return free.resultants(forces);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::settle(Vector &u, const ContactHistory<dim> &history)
-{
-  Vector r(u);
-  residual(u, history, r);
-  const auto evaluate = [&](const typename FreeBodies<dim>::Coordinates &motion) {
-    Vector moved(u);
-    free.add(motion, moved);
-    residual(moved, history, r);
-  };
-  const auto motion = free.settling(loads_on_free_bodies(), evaluate);
-  if (!motion.empty())
-    free.add(motion, u);
-}
-
-template <int dim>
-typename FreeBodies<dim>::Coordinates
-Equilibrium<dim>::unbalanced_loads() const
-{
-  const auto loads_on_motions = loads_on_free_bodies();
-  auto       result           = free.unbalanced(loads_on_motions);
-  double     norm             = 0.;
-  for (const double load : loads_on_motions)
-    norm += load * load;
-  for (double &part : result)
-    part /= norm == 0. ? 1. : std::sqrt(norm);
-  return result;
-}
-
-template <int dim>
-void
 Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
 {
   // Contact stencils have no hanging nodes, laws in increments see them.
@@ -278,6 +204,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     if (fields.owned().is_element(line.index))
       r(line.index) = 0.;
   r.compress(dealii::VectorOperation::insert);
+  hold_neutral_motions(r);
 }
 
 template <int dim>
@@ -327,6 +254,11 @@ Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
   for (const DofIndex index : fields.owned())
     if (artificial_mass(index) != 0.)
       matrix.add(index, index, mass_factor * artificial_mass(index));
+  for (unsigned int i = 0; i < free_bodies().size(); ++i)
+    for (const DofIndex unknown : free.unknowns(i))
+      if (neutral_forces[free_bodies()[i].body] != 0. && mass_factor < neutral_mass_factor)
+        matrix.add(unknown, unknown,
+                   (neutral_mass_factor - mass_factor) * artificial_mass(unknown));
   // Rows without any other entry.
   for (const DofIndex index : rigid.prescribed())
     matrix.add(index, index, largest_stiffness);

@@ -15,12 +15,10 @@ namespace
 {
 using DenseMatrix = dealii::FullMatrix<double>;
 
-/** An eigenvalue below this part of the trace resists nothing. */
-constexpr double negligible = 1e-6;
-
-/** Columns: the null space of a symmetric positive semi-definite matrix. */
+/** Columns: the null space of a symmetric positive semi-definite matrix, what is below a part of
+ * its trace. */
 DenseMatrix
-null_space(const DenseMatrix &matrix)
+null_space(const DenseMatrix &matrix, const double negligible = 1e-6)
 {
   const unsigned int               n = matrix.m();
   dealii::LAPACKFullMatrix<double> copy(n, n);
@@ -64,11 +62,12 @@ template <int dim>
 FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                             const StrongSupports<dim> &supports,
                             const BoundaryTerms<dim>  &boundary_terms,
-                            const ContactPoints<dim>  &contact)
+                            const ContactPoints<dim> &contact, const bool turns_finitely)
     : bodies(bodies)
     , supports(supports)
     , boundary_terms(boundary_terms)
     , contact(contact)
+    , turns_finitely(turns_finitely)
     , communicator(fields.grid.communicator())
     , number_of(bodies.size(), none)
 {
@@ -89,6 +88,9 @@ FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<di
       n_coordinates += basis.n();
     }
   find_unknowns(fields);
+  for (const ContactPoint<dim> &point : contact.points())
+    cell_size = std::max(cell_size, point.cell_size);
+  cell_size = dealii::Utilities::MPI::max(cell_size, communicator);
 }
 
 template <int dim>
@@ -200,7 +202,7 @@ FreeBodies<dim>::append_column(const ContactPoint<dim>      &point,
 
 template <int dim>
 std::vector<typename FreeBodies<dim>::Coordinates>
-FreeBodies<dim>::not_resisted() const
+FreeBodies<dim>::not_resisted(const double negligible) const
 {
   if (n_coordinates == 0)
     return {};
@@ -246,7 +248,7 @@ FreeBodies<dim>::not_resisted() const
         for (unsigned int l = 0; l < of_pair[p].m(); ++l)
           all(coordinates[p][k], coordinates[p][l]) += of_pair[p](k, l) / trace;
     }
-  const DenseMatrix        vectors = null_space(all);
+  const DenseMatrix        vectors = null_space(all, negligible);
   std::vector<Coordinates> result;
   for (unsigned int j = 0; j < vectors.n(); ++j)
     {
@@ -286,21 +288,6 @@ FreeBodies<dim>::along(const unsigned int i, const unsigned int j, const unsigne
   for (unsigned int m = 0; m < Motions::n_motions; ++m)
     result += bases[i](m, k) * rigid_motions[i].motion(m, positions[i][j])[free_components[i][j]];
   return result;
-}
-
-template <int dim>
-void
-FreeBodies<dim>::add(const Coordinates &motion, dealii::TrilinosWrappers::MPI::Vector &u) const
-{
-  for (unsigned int i = 0; i < free_motions.size(); ++i)
-    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
-      {
-        double sum = 0.;
-        for (unsigned int k = 0; k < bases[i].n(); ++k)
-          sum += along(i, j, k) * motion[first[i] + k];
-        u(free_unknowns[i][j]) += sum;
-      }
-  u.compress(dealii::VectorOperation::add);
 }
 
 template <int dim>

@@ -1,7 +1,36 @@
 #include <scree/mechanics/rigid_motion.h>
 
+#include <cmath>
+
 namespace scree
 {
+template <int dim>
+dealii::Tensor<1, dim>
+RigidMotions<dim>::finite_motion(const std::array<double, n_motions> &q,
+                                 const dealii::Point<dim>            &position) const
+{
+  dealii::Tensor<1, 3> v, omega, arm;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      v[d]   = q[d];
+      arm[d] = position[d] - centre[d];
+    }
+  for (unsigned int m = dim; m < n_motions; ++m)
+    omega[dim == 2 ? 2 : m - dim] = q[m] / size;
+  // (R - I) arm + V v, Rodrigues' formulas.
+  const double angle = omega.norm(), half = std::sin(0.5 * angle);
+  const double one    = angle == 0. ? 1. : std::sin(angle) / angle;
+  const double two    = angle == 0. ? 0.5 : 2. * half * half / (angle * angle);
+  const double three  = angle < 1e-3 ? 1. / 6. : (1. - one) / (angle * angle);
+  const auto   turned = [&](const dealii::Tensor<1, 3> &x) { return cross_product_3d(omega, x); };
+  const auto   sum
+    = one * turned(arm) + two * (turned(turned(arm)) + turned(v)) + v + three * turned(turned(v));
+  dealii::Tensor<1, dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d] = sum[d];
+  return result;
+}
+
 template <int dim>
 std::vector<dealii::TrilinosWrappers::MPI::Vector>
 near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
@@ -39,4 +68,6 @@ template std::vector<dealii::TrilinosWrappers::MPI::Vector>
 near_null_space(const Fields<2> &, const std::vector<Body<2>> &);
 template std::vector<dealii::TrilinosWrappers::MPI::Vector>
 near_null_space(const Fields<3> &, const std::vector<Body<3>> &);
+template class RigidMotions<2>;
+template class RigidMotions<3>;
 } // namespace scree

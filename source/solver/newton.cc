@@ -1,3 +1,4 @@
+#include <scree/solver/line_search.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
@@ -37,6 +38,7 @@ constexpr double       largest_mass         = 10;
 constexpr double       energy_overshoot     = 0.5;
 constexpr double       energy_reduction     = 0.1;
 constexpr unsigned int max_energy_trials    = 16;
+constexpr unsigned int max_balances         = 6;
 
 const EnumNames<LineSearch> line_search_names
   = {{LineSearch::none, "none"}, {LineSearch::residual, "residual"}, {LineSearch::work, "work"}};
@@ -143,12 +145,27 @@ Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
 }
 
 void
+Newton::residual(Vector &u, Vector &r) const
+{
+  hooks.residual(u, r);
+  for (unsigned int k = 0; k < max_balances && hooks.balance && hooks.balance(u); ++k)
+    hooks.residual(u, r);
+}
+
+void
 Newton::evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const
 {
   step.alpha = alpha;
   step.u     = u;
-  step.u.add(alpha, du);
-  hooks.residual(step.u, step.r);
+  if (hooks.advance)
+    {
+      Vector increment(du);
+      increment *= alpha;
+      hooks.advance(increment, step.u);
+    }
+  else
+    step.u.add(alpha, du);
+  residual(step.u, step.r);
   step.norm = step.r.l2_norm();
   ++step.evaluations;
 }
@@ -216,8 +233,6 @@ Newton::search(const Vector &u, const Vector &du, const Vector &r, const double 
   return search_work(std::move(step), u, du, r * du);
 }
 
-/** Zero of a decreasing G in (0, b) with G(0) > 0 > G(b): Illinois, bisection where that is slow.
- */
 Newton::Step
 Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const
 {
@@ -228,33 +243,14 @@ Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progre
     evaluate(step, step.alpha / 4, u, du);
   const double mass = hooks.mass_work(du), start = r * du;
   const auto   G = [&]() { return step.r * du - step.alpha * mass; };
-  double       a = 0., G_a = start, b = step.alpha, G_b = G(), last = G_b, before = start;
-  if (start > 0. && std::isfinite(step.norm) && G_b < -energy_overshoot * start)
-    for (unsigned int k = 0; k < max_energy_trials && std::abs(last) > energy_reduction * start;
-         ++k)
-      {
-        const double secant = (a * G_b - b * G_a) / (G_b - G_a);
-        const bool   slow   = k > 1 && std::abs(last) > 0.5 * std::abs(before);
-        evaluate(step,
-                 !slow         ? secant
-                 : a > 0.1 * b ? 0.5 * (a + b)
-                               : std::sqrt(std::max(a, 0.01 * b) * b),
-                 u, du);
-        before = last;
-        last   = G();
-        if (last > 0.)
-          {
-            a   = step.alpha;
-            G_a = last;
-            G_b *= 0.5;
-          }
-        else
-          {
-            b   = step.alpha;
-            G_b = last;
-            G_a *= 0.5;
-          }
-      }
+  if (const double after = G();
+      start > 0. && std::isfinite(step.norm) && after < -energy_overshoot * start)
+    find_zero(
+      [&](const double alpha) {
+        evaluate(step, alpha, u, du);
+        return G();
+      },
+      start, step.alpha, after, energy_reduction * start, max_energy_trials);
   progress.adapt(step.alpha);
   return step;
 }
@@ -304,7 +300,7 @@ Newton::iterate(Vector &u, Progress &progress) const
   Vector       r(u), du(u);
   double       linear_tolerance = parameters.loosest_linear_tolerance;
   unsigned int n_short_steps    = 0;
-  hooks.residual(u, r);
+  residual(u, r);
   iteration.residual = r.l2_norm();
 
   const auto ended_as = [&](const NewtonStatus status, const std::string &message) {

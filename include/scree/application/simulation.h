@@ -163,12 +163,17 @@ private:
    * is prescribed at t = 0 already, the first step resolves the overlap.
    */
   void resolve_overlap();
+  /**
+   * Before the first step on a moving geometry free bodies fall as rigid ones, driven by the loads
+   * of that step, until contact holds them; by half a cell at a time.
+   */
+  void settle();
   /** One part of it, which leaves the overlaps of the pairs times `left`. */
   bool resolve_part(const std::vector<double> &overlaps, const double left);
   /** Whether the geometry has moved or a step was accepted. */
   bool has_started() const
   {
-    return overlap_is_resolved || step_control.n_accepted() > 0;
+    return geometry_has_moved || step_control.n_accepted() > 0;
   }
   /** @throws UserError if bodies on a fixed geometry slipped by more than a cell to be without
    * load. */
@@ -233,8 +238,8 @@ private:
   MaterialPoints<dim>                  points_at_end;  //!< of the step being solved
   Predictor<dim>                       predictor;      //!< on a moving geometry
   std::set<unsigned int>               told_as_loose;  //!< bodies
-  bool                                 overlap_is_resolved = false;
-  bool                                 is_transient        = false; //!< K has more artificial mass
+  bool                                 geometry_has_moved = false;
+  bool                                 is_transient       = false; //!< K has more artificial mass
   std::set<std::pair<unsigned int, unsigned int>>
     warned_pairs;                              //!< told once; (b, b): body b at the box,
                                                //!< (b, a) with b > a: under-resolved

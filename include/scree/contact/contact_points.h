@@ -105,6 +105,10 @@ public:
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
   void evaluate(const Vector &u, const ContactHistory<dim> &history);
 
+  /** The response of a point to a jump, whatever the last evaluation was. */
+  ContactResponse<dim> response(const unsigned int point, const dealii::Tensor<1, dim> &jump,
+                                const ContactHistory<dim> &history) const;
+
   /** The history to carry on: tractions and jumps of the last evaluation. */
   ContactHistory<dim> current_history() const;
 

@@ -4,6 +4,7 @@
 #include <scree/contact/exact_distance.h>
 #include <scree/discretization/fields.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct ContactPoint
   bool                   is_exact     = false; //!< near a kink, from exact distances
   bool                   is_beyond = false; //!< an edge: the surfaces there do not face each other
   NormalOf               normal_of = NormalOf::both; //!< known from exact distances
+  /** x_a and x_b, where the displacements of a and b are taken. */
+  std::array<dealii::Point<dim>, 2> feet = {};
 };
 
 /**

@@ -33,6 +33,9 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
+  /** Of bodies with neutral motions, see FreeBodies::neutral_part(). */
+  static constexpr double neutral_mass_factor = 1e-3;
+
   Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
 
@@ -99,6 +102,12 @@ public:
   /** du . M du with the artificial mass M (collective). */
   double artificial_work(const Vector &du) const;
 
+  /** u += du, where free bodies turn without strain, see FreeBodies::advance() (collective). */
+  void advance(const Vector &du, Vector &u) const
+  {
+    free.advance(du, artificial_mass, u);
+  }
+
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
@@ -125,12 +134,25 @@ public:
   void settle(Vector &u, const ContactHistory<dim> &history);
 
   /**
+   * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
+   * their loads, of that of all |f_b| over a cell; empty: they stay.
+   */
+  std::optional<double> balance_rigid_motions(Vector &u, const ContactHistory<dim> &history,
+                                              const bool is_settling = false) const;
+
+  /**
    * What of the loads on the free bodies no contact can balance, see FreeBodies::unbalanced(), as a
    * part of the loads: a motion of length 0 to 1. Of the last residual() (collective).
    */
   typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
   bool has_free_rigid_bodies() const;
+
+  /** What of the forces on a body residual() left out, see FreeBodies::neutral_part() [force]. */
+  double neutral_force(const unsigned int body) const
+  {
+    return neutral_forces[body];
+  }
 
   /** Whether tangents change by contact alone. */
   bool is_linear_but_for_contact() const
@@ -177,11 +199,13 @@ private:
   void                                  set_up_matrices();
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
-  void                                  set_zero_on_prescribed(Vector &r) const;
-  void                                  add_artificial_mass(Matrix &matrix) const;
-  void                                  eliminate_prescribed(Matrix &matrix) const;
-  void                                  reactions(Vector &result) const;
-  unsigned int                          n_rigid_unknowns() const;
+  /** Takes forces on neutral motions out of r, see FreeBodies::neutral_part(). */
+  void         hold_neutral_motions(Vector &r);
+  void         set_zero_on_prescribed(Vector &r) const;
+  void         add_artificial_mass(Matrix &matrix) const;
+  void         eliminate_prescribed(Matrix &matrix) const;
+  void         reactions(Vector &result) const;
+  unsigned int n_rigid_unknowns() const;
   /** External work of the step to `u`, but that of dead loads. */
   double work_of_step(const Vector &u, const Vector &with_ghost_values);
   double work_of_multipliers(const Vector &u);
@@ -217,17 +241,18 @@ private:
   Vector applied_forces;  //!< on rigid bodies at the last residual()
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
-  dealii::IndexSet ghosted_dofs;
-  double           time              = 0.;
-  double           accepted_time     = 0.;
-  bool             is_unloaded       = true; //!< nothing was prescribed at the accepted state
-  bool             is_driven         = true; //!< forces act on rigid bodies
-  double           start_time        = 0.;   //!< of the step on a moving geometry
-  double           mass_factor       = default_mass_factor;
-  double           largest_stiffness = 0.;            //!< largest diagonal entry of A
-  Vector           diagonal;                          //!< of A
-  Vector           scratch;                           //!< for one function at a time
-  double           stiffness_times_displacement = 0.; //!< |diagonal u| of the last residual()
+  dealii::IndexSet    ghosted_dofs;
+  double              time          = 0.;
+  double              accepted_time = 0.;
+  bool                is_unloaded   = true; //!< nothing was prescribed at the accepted state
+  bool                is_driven     = true; //!< forces act on rigid bodies
+  double              start_time    = 0.;   //!< of the step on a moving geometry
+  double              mass_factor   = default_mass_factor;
+  std::vector<double> neutral_forces;                    //!< of the last residual(), by body
+  double              largest_stiffness = 0.;            //!< largest diagonal entry of A
+  Vector              diagonal;                          //!< of A
+  Vector              scratch;                           //!< for one function at a time
+  double              stiffness_times_displacement = 0.; //!< |diagonal u| of the last residual()
 
   // The accepted state, for the trapezoidal rule; at first the unloaded one.
   Energies                      current_energies;

@@ -45,10 +45,11 @@ class FreeBodies
 public:
   /** Of all free bodies, one after the other; rotations have the dimension of a length. */
   using Coordinates = std::vector<double>;
+  using Vector      = dealii::TrilinosWrappers::MPI::Vector;
 
   FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
              const StrongSupports<dim> &supports, const BoundaryTerms<dim> &boundary_terms,
-             const ContactPoints<dim> &contact);
+             const ContactPoints<dim> &contact, const bool turns_finitely);
 
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &motions() const
@@ -60,8 +61,28 @@ public:
    * Motions that the contact of the last evaluation does not resist: the null space of the sum of
    * the outer products of what closed points feel of the coordinates, along the normal and, where
    * they stick, along the tangents; pairs count alike (collective).
+   *
+   * @param negligible part of the trace
    */
-  std::vector<Coordinates> not_resisted() const;
+  std::vector<Coordinates> not_resisted(const double negligible = 1e-6) const;
+
+  /**
+   * What of the forces on the coordinates acts on neutral motions, where nothing but errors of the
+   * normals is between them and indifference: the spin of a disc without friction. Motions that
+   * the contact of the last evaluation resists by less than 1e-4, along which the forces are at
+   * most 5e-3 of what acts on the bodies. Empty: there are none (collective).
+   */
+  Coordinates neutral_part(const Coordinates &forces) const;
+
+  /** Length of what acts on a free body. */
+  double magnitude(const Coordinates &forces, const unsigned int free_body) const;
+
+  /** Work of forces on a motion, of that of all their magnitudes over a cell. */
+  double work(const Coordinates &forces, const Coordinates &motion) const;
+
+  /** r -= M R (R^T M R)^-1 F, R the motions and M a diagonal mass: F acts no longer (collective).
+   */
+  void subtract(const Coordinates &forces, const Vector &mass, Vector &r) const;
 
   /** The free bodies that take part in such a motion (collective). */
   std::vector<unsigned int> not_held() const;
@@ -70,7 +91,7 @@ public:
    * Resultants of forces: what they do on the coordinates (collective).
    * @param forces by unknown, without ghosts
    */
-  Coordinates resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const;
+  Coordinates resultants(const Vector &forces) const;
 
   /**
    * What of resultants no contact can balance: pressures >= 0 and friction within Coulomb's cone
@@ -95,8 +116,32 @@ public:
   Coordinates settling(const Coordinates                              &resultants,
                        const std::function<void(const Coordinates &)> &evaluate) const;
 
-  /** Adds a motion to the displacement (without ghosts). */
-  void add(const Coordinates &motion, dealii::TrilinosWrappers::MPI::Vector &u) const;
+  /**
+   * How the free bodies move as rigid ones until contact and loads balance, from the jumps of the
+   * last evaluation on: F_k = f_k + sum_i w_i c_ik . t_i([[u]]_i + sum_k c_ik q_k) = 0 with the
+   * tractions t of the laws and the columns c_ik = d[[u]]_i/dq_k. Newton's method with steps of at
+   * most a cell, (K + s M) dq = F with s as small as that allows and M the loads |f_b|, and a
+   * search along dq for a zero of F . dq. Empty: every body is in balance to 1e-3 of what acts on
+   * it, or nothing better was found (collective).
+   *
+   * @param loads resultants f of all forces but those of contact
+   * @param is_settling on a moving geometry: s may become small, so that weakly resisted motions
+   *                    go far. In a step they do not: gaps are linear in the motion there.
+   */
+  Coordinates balancing(const Coordinates &loads, const ContactHistory<dim> &history,
+                        const bool is_settling) const;
+
+  /**
+   * Adds a motion to the displacement (without ghosts). On a moving geometry deformable bodies turn
+   * without strain, from where `u` has brought them.
+   */
+  void add(const Coordinates &motion, Vector &u) const;
+
+  /**
+   * Adds du to u; on a moving geometry its rigid part, nearest in the norm of the diagonal mass, as
+   * a finite motion: bodies turn without strain.
+   */
+  void advance(const Vector &du, const Vector &mass, Vector &u) const;
 
   /** The motions of the bodies that move at least a tenth as much as the one that moves most. */
   std::vector<LooseMotion<dim>> in_words(const Coordinates &motion) const;
@@ -112,6 +157,7 @@ public:
 
 private:
   using Motions = RigidMotions<dim>;
+  struct Balance;
 
   static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
 
@@ -121,6 +167,19 @@ private:
   void find_unknowns(const Fields<dim> &fields);
   /** What coordinate k of a free body does to its unknown j. */
   double along(const unsigned int free_body, const unsigned int j, const unsigned int k) const;
+  /** Part of what acts on a free body that may be out of balance: contact acts at points. */
+  double tolerance(const unsigned int free_body) const;
+  /** What the coordinates of a free body do to its unknown j, from where u has brought it. */
+  std::array<double, Motions::n_motions> motions_of(const unsigned int free_body,
+                                                    const unsigned int j, const Vector &u) const;
+  /** (R^T M R)^-1 of each free body, R its motions from where u has brought it (collective). */
+  std::vector<dealii::FullMatrix<double>> inverse_masses(const Vector &mass, const Vector &u) const;
+  /** Body by body. */
+  Coordinates times(const std::vector<dealii::FullMatrix<double>> &matrices,
+                    const Coordinates                             &coordinates) const;
+  /** result += factor M R motion, R the motions from `at` on, M = 1 if null. */
+  void add_small(const double factor, const Coordinates &motion, const Vector &at,
+                 const Vector *mass, Vector &result) const;
   /** The q nearest to `wanted` with room + columns q >= 0; empty: there is none (collective). */
   Coordinates least_motion(const Coordinates &columns, const Coordinates &room,
                            const Coordinates &weight, const Coordinates &wanted) const;
@@ -135,6 +194,8 @@ private:
   const StrongSupports<dim>    &supports;
   const BoundaryTerms<dim>     &boundary_terms;
   const ContactPoints<dim>     &contact;
+  const bool                    turns_finitely;
+  double                        cell_size = 0.; //!< largest of the contact points [L]
   MPI_Comm                      communicator;
   std::vector<FreeMotion>       free_motions;
   // Of the free bodies.

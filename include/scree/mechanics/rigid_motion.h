@@ -61,6 +61,10 @@ public:
     return result;
   }
 
+  /** What a finite motion, the exponential of sum_m q_m m(x), displaces a position by. */
+  dealii::Tensor<1, dim> finite_motion(const std::array<double, n_motions> &q,
+                                       const dealii::Point<dim>            &position) const;
+
   Resistance no_resistance() const
   {
     return Resistance(n_motions, n_motions);

@@ -157,6 +157,15 @@ public:
      */
     std::function<void(const Vector &u, const Vector &r, double tolerance, Vector &du)> solve;
 
+    /** u += du, or along a curve that begins with du; may be empty. */
+    std::function<void(const Vector &du, Vector &u)> advance;
+
+    /**
+     * Moves u, that of the last call of `residual`, to where the forces on what moves freely
+     * balance; false: it stays. May be empty.
+     */
+    std::function<bool(Vector &u)> balance;
+
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
     std::function<double()> reference;
 
@@ -195,6 +204,9 @@ private:
   Step search_residual(Step step, const Vector &u, const Vector &du, const double norm) const;
 
   Step search_work(Step step, const Vector &u, const Vector &du, const double work) const;
+
+  /** r(u) where what moves freely is in balance. */
+  void residual(Vector &u, Vector &r) const;
 
   void evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const;
 

@@ -1,0 +1,129 @@
+#include <scree/mechanics/equilibrium.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Statics of the free bodies as rigid ones.
+namespace scree
+{
+template <int dim>
+void
+Equilibrium<dim>::shorten(Vector &du, const double length) const
+{
+  const std::vector<unsigned int> loose   = free.not_held();
+  double                          largest = 0.;
+  for (unsigned int i = 0; i < free_bodies().size() && !loose.empty(); ++i)
+    if (std::find(loose.begin(), loose.end(), free_bodies()[i].body) != loose.end())
+      for (const DofIndex unknown : free.unknowns(i))
+        largest = std::max(largest, std::abs(du(unknown)));
+  largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+  if (largest > length)
+    du *= length / largest;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_artificial_mass(const double factor)
+{
+  mass_factor = factor;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::artificial_work(const Vector &du) const
+{
+  double work = 0.;
+  for (unsigned int i = 0; i < free_bodies().size(); ++i)
+    for (const DofIndex unknown : free.unknowns(i))
+      work += mass_factor * artificial_mass(unknown) * du(unknown) * du(unknown);
+  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+Equilibrium<dim>::loads_on_free_bodies() const
+{
+  Vector forces(internal_forces);
+  reactions(forces);
+  forces += contact_forces;
+  forces *= -1.;
+  return free.resultants(forces);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::settle(Vector &u, const ContactHistory<dim> &history)
+{
+  Vector r(u);
+  residual(u, history, r);
+  const auto evaluate = [&](const typename FreeBodies<dim>::Coordinates &motion) {
+    Vector moved(u);
+    free.add(motion, moved);
+    residual(moved, history, r);
+  };
+  const auto motion = free.settling(loads_on_free_bodies(), evaluate);
+  if (!motion.empty())
+    free.add(motion, u);
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+Equilibrium<dim>::unbalanced_loads() const
+{
+  const auto loads_on_motions = loads_on_free_bodies();
+  auto       result           = free.unbalanced(loads_on_motions);
+  double     norm             = 0.;
+  for (const double load : loads_on_motions)
+    norm += load * load;
+  for (double &part : result)
+    part /= norm == 0. ? 1. : std::sqrt(norm);
+  return result;
+}
+
+template <int dim>
+std::optional<double>
+Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &history,
+                                        const bool is_settling) const
+{
+  if (free_bodies().empty())
+    return {};
+  const auto forces = loads_on_free_bodies();
+  const auto motion = free.balancing(forces, history, is_settling);
+  if (motion.empty())
+    return {};
+  free.add(motion, u);
+  return free.work(forces, motion);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::hold_neutral_motions(Vector &r)
+{
+  neutral_forces.assign(bodies.size(), 0.);
+  if (is_linear_but_for_contact() || free_bodies().empty())
+    return;
+  const auto forces = free.neutral_part(free.resultants(r));
+  if (forces.empty())
+    return;
+  free.subtract(forces, artificial_mass, r);
+  for (unsigned int i = 0; i < free_bodies().size(); ++i)
+    neutral_forces[free_bodies()[i].body] = free.magnitude(forces, i);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;         \
+  template void                  Equilibrium<dim>::set_artificial_mass(const double);             \
+  template double                Equilibrium<dim>::artificial_work(const Vector &) const;         \
+  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;                  \
+  template void                  Equilibrium<dim>::settle(Vector &, const ContactHistory<dim> &); \
+  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                      \
+  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                         \
+    Vector &, const ContactHistory<dim> &, const bool) const;
+
+template void Equilibrium<2>::hold_neutral_motions(Vector &);
+template void Equilibrium<3>::hold_neutral_motions(Vector &);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

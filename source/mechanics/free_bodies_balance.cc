@@ -1,0 +1,291 @@
+#include <scree/mechanics/free_bodies.h>
+#include <scree/solver/line_search.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/sparse_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+// How free bodies move as rigid ones until contact balances their loads.
+namespace scree
+{
+namespace
+{
+constexpr double       balanced         = 1e-3; // of what acts on a body
+constexpr unsigned int max_iterations   = 100;
+constexpr double       lightest         = 1e-3; // body, of the heaviest one
+constexpr double       first_damping    = 1e-2;
+constexpr double       smallest_damping = 1e-10;
+constexpr double       overshoot        = 0.5;
+constexpr double       search_reduction = 0.1;
+constexpr unsigned int max_trials       = 30;
+} // namespace
+
+/** Forces on the coordinates, and what resists them, after a motion q. */
+template <int dim>
+struct FreeBodies<dim>::Balance
+{
+  Balance(const FreeBodies &free, const Coordinates &loads, const ContactHistory<dim> &history);
+
+  void evaluate(const Coordinates &q);
+
+  /** Whether no body misses its balance by more than a part of what acts on it. */
+  bool is_balanced() const;
+
+  /** dq of (K + s M) dq = F, not longer than `length`. */
+  Coordinates direction(const double length, const double damping) const;
+
+  const FreeBodies          &free;
+  const Coordinates         &loads;
+  const ContactHistory<dim> &history;
+
+  std::vector<std::vector<unsigned int>> coordinates_of_pair;
+  std::vector<std::size_t>               first_of_pair; // entry of the pair's block
+  std::vector<unsigned int>              points;        // of contact, with a free body
+  std::vector<dealii::Tensor<1, dim>>    columns;       // of these points, by coordinates_of_pair
+  Coordinates                            mass;          // M
+  std::size_t                            n_entries = 0; // of all blocks
+
+  Coordinates             forces; // F
+  std::vector<double>     acting; // on each free body
+  std::vector<double>     blocks; // K, by pairs
+  dealii::SparsityPattern pattern;
+};
+
+template <int dim>
+FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loads,
+                                  const ContactHistory<dim> &history)
+    : free(free)
+    , loads(loads)
+    , history(history)
+    , coordinates_of_pair(free.contact.pairs().size())
+{
+  const auto                    &contact = free.contact;
+  dealii::DynamicSparsityPattern couplings(free.n_coordinates, free.n_coordinates);
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      auto &coordinates = coordinates_of_pair[p];
+      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
+        if (const unsigned int i = free.number_of[body]; i != none)
+          for (unsigned int k = 0; k < free.bases[i].n(); ++k)
+            coordinates.push_back(free.first[i] + k);
+      first_of_pair.push_back(n_entries);
+      n_entries += coordinates.size() * coordinates.size();
+      for (const unsigned int k : coordinates)
+        couplings.add_entries(k, coordinates.begin(), coordinates.end());
+    }
+  for (unsigned int k = 0; k < free.n_coordinates; ++k)
+    couplings.add(k, k);
+  pattern.copy_from(couplings);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      const ContactPair       &pair  = contact.pairs()[point.pair];
+      if (coordinates_of_pair[point.pair].empty() || pair.law.law == ContactLaw::none)
+        continue;
+      points.push_back(i);
+      for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
+        if (const unsigned int number = free.number_of[body]; number != none)
+          {
+            dealii::Point<dim> x = point.feet[sign < 0. ? 0 : 1];
+            if (free.turns_finitely)
+              x += contact.mean_displacements()[i] + 0.5 * sign * contact.jumps()[i];
+            for (unsigned int k = 0; k < free.bases[number].n(); ++k)
+              {
+                dealii::Tensor<1, dim> column;
+                for (unsigned int m = 0; m < Motions::n_motions; ++m)
+                  column
+                    += sign * free.bases[number](m, k) * free.rigid_motions[number].motion(m, x);
+                columns.push_back(column);
+              }
+          }
+    }
+  std::vector<double> load;
+  for (unsigned int i = 0; i < free.free_motions.size(); ++i)
+    load.push_back(free.magnitude(loads, i));
+  const double heaviest = *std::max_element(load.begin(), load.end());
+  for (unsigned int i = 0; i < load.size(); ++i)
+    mass.insert(mass.end(), free.bases[i].n(),
+                heaviest == 0. ? 1. : std::max(lightest, load[i] / heaviest));
+}
+
+template <int dim>
+void
+FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
+{
+  const auto         &contact  = free.contact;
+  const unsigned int  n        = free.n_coordinates;
+  const unsigned int  n_bodies = free.free_motions.size();
+  std::vector<double> all(n + n_bodies + n_entries, 0.);
+  const auto         *column = columns.data();
+  for (const unsigned int i : points)
+    {
+      const ContactPoint<dim> &point       = contact.points()[i];
+      const ContactPair       &pair        = contact.pairs()[point.pair];
+      const auto              &coordinates = coordinates_of_pair[point.pair];
+      auto                     jump        = contact.jumps()[i];
+      for (unsigned int k = 0; k < coordinates.size(); ++k)
+        jump += q[coordinates[k]] * column[k];
+      const auto response = contact.response(i, jump, history);
+      const auto traction = point.weight * response.traction(point.normal);
+      if (response.status != ContactStatus::open)
+        {
+          double *block = all.data() + n + n_bodies + first_of_pair[point.pair];
+          for (unsigned int k = 0; k < coordinates.size(); ++k)
+            {
+              all[coordinates[k]] += column[k] * traction;
+              const auto stiffness = point.weight * (column[k] * response.tangent);
+              for (unsigned int l = 0; l < coordinates.size(); ++l)
+                block[k * coordinates.size() + l] += stiffness * column[l];
+            }
+          for (const unsigned int body : {pair.a, pair.b})
+            if (free.number_of[body] != none)
+              all[n + free.number_of[body]] += traction.norm();
+        }
+      column += coordinates.size();
+    }
+  dealii::Utilities::MPI::sum(all, free.communicator, all);
+  forces.assign(all.begin(), all.begin() + n);
+  acting.assign(all.begin() + n, all.begin() + n + n_bodies);
+  blocks.assign(all.begin() + n + n_bodies, all.end());
+  for (unsigned int k = 0; k < n; ++k)
+    forces[k] += loads[k];
+  for (unsigned int i = 0; i < n_bodies; ++i)
+    acting[i] += free.magnitude(loads, i);
+}
+
+template <int dim>
+bool
+FreeBodies<dim>::Balance::is_balanced() const
+{
+  for (unsigned int i = 0; i < acting.size(); ++i)
+    for (unsigned int k = 0; k < free.bases[i].n(); ++k)
+      if (std::abs(forces[free.first[i] + k]) > free.tolerance(i) * acting[i])
+        return false;
+  return true;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::Balance::direction(const double length, const double damping) const
+{
+  dealii::SparseMatrix<double> stiffness(pattern), damped(pattern);
+  for (unsigned int p = 0; p < coordinates_of_pair.size(); ++p)
+    for (unsigned int k = 0; k < coordinates_of_pair[p].size(); ++k)
+      for (unsigned int l = 0; l < coordinates_of_pair[p].size(); ++l)
+        stiffness.add(coordinates_of_pair[p][k], coordinates_of_pair[p][l],
+                      blocks[first_of_pair[p] + k * coordinates_of_pair[p].size() + l]);
+  // Alone, M would allow `length` with this s.
+  double alone = 0., stiffest = 0.;
+  for (unsigned int k = 0; k < mass.size(); ++k)
+    {
+      alone    = std::max(alone, std::abs(forces[k]) / (mass[k] * length));
+      stiffest = std::max(stiffest, stiffness.diag_element(k));
+    }
+  double                 largest = 0.;
+  dealii::Vector<double> dq(forces.size());
+  double                 s = std::max(damping * stiffest, 1e-6 * alone);
+  for (unsigned int trial = 0; trial < max_trials; ++trial, s *= 10.)
+    {
+      damped.copy_from(stiffness);
+      for (unsigned int k = 0; k < mass.size(); ++k)
+        damped.add(k, k, s * mass[k]);
+      dealii::SparseDirectUMFPACK solver;
+      solver.initialize(damped);
+      std::copy(forces.begin(), forces.end(), dq.begin());
+      solver.solve(dq);
+      largest = dq.linfty_norm();
+      if (largest <= length)
+        break;
+    }
+  if (largest > length)
+    dq *= length / largest;
+  return Coordinates(dq.begin(), dq.end());
+}
+
+template <int dim>
+double
+FreeBodies<dim>::tolerance(const unsigned int i) const
+{
+  return turns_finitely ? std::max(balanced, 0.25 * cell_size / rigid_motions[i].length())
+                        : balanced;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &history,
+                           const bool is_settling) const
+{
+  const double length = turns_finitely ? 0.5 * cell_size : cell_size;
+  Balance      balance(*this, loads, history);
+  double       damping = first_damping;
+  const double least   = is_settling || !turns_finitely ? smallest_damping : first_damping;
+  Coordinates  q(n_coordinates, 0.);
+  balance.evaluate(q);
+  if (balance.is_balanced())
+    return {};
+  // Contact points stay where they are in a step: a moving geometry follows after a cell.
+  const auto room = [&]() {
+    double moved = 0.;
+    for (const double part : q)
+      moved = std::max(moved, std::abs(part));
+    return turns_finitely ? length - moved : length;
+  };
+  for (unsigned int iteration = 0;
+       iteration < max_iterations && !balance.is_balanced() && room() > 1e-3 * length; ++iteration)
+    {
+      const Coordinates dq    = balance.direction(room(), damping);
+      const Coordinates start = q;
+      const auto        along
+        = [&]() { return std::inner_product(dq.begin(), dq.end(), balance.forces.begin(), 0.); };
+      const auto go = [&](const double alpha) {
+        for (unsigned int k = 0; k < q.size(); ++k)
+          q[k] = start[k] + alpha * dq[k];
+        balance.evaluate(q);
+        return along();
+      };
+      const double before = along();
+      const double after  = go(1.);
+      damping             = std::max(least, 0.1 * damping);
+      if (before > 0. && after < -overshoot * before)
+        find_zero(go, before, 1., after, search_reduction * before, max_trials);
+    }
+  return q;
+}
+
+template <int dim>
+double
+FreeBodies<dim>::magnitude(const Coordinates &forces, const unsigned int i) const
+{
+  return std::sqrt(std::inner_product(forces.begin() + first[i],
+                                      forces.begin() + first[i] + bases[i].n(),
+                                      forces.begin() + first[i], 0.));
+}
+
+template <int dim>
+double
+FreeBodies<dim>::work(const Coordinates &forces, const Coordinates &motion) const
+{
+  double all = 0.;
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    all += magnitude(forces, i) * cell_size;
+  return all == 0. ? 0.
+                   : std::inner_product(forces.begin(), forces.end(), motion.begin(), 0.) / all;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template std::vector<double> FreeBodies<dim>::balancing(                                        \
+    const std::vector<double> &, const ContactHistory<dim> &, const bool) const;                  \
+  template double FreeBodies<dim>::magnitude(const std::vector<double> &, const unsigned int)     \
+    const;                                                                                        \
+  template double FreeBodies<dim>::tolerance(const unsigned int) const;                           \
+  template double FreeBodies<dim>::work(const std::vector<double> &, const std::vector<double> &) \
+    const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,207 @@
+#include <scree/mechanics/free_bodies.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <numeric>
+
+// Motions of free bodies as unknowns of the displacement, and forces on them.
+namespace scree
+{
+template <int dim>
+std::array<double, FreeBodies<dim>::Motions::n_motions>
+FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const Vector &u) const
+{
+  std::array<double, Motions::n_motions> result    = {};
+  const unsigned int                     component = free_components[i][j];
+  const bool                             is_rigid  = bodies[free_motions[i].body].is_rigid();
+  dealii::Point<dim>                     x;
+  if (!is_rigid)
+    {
+      x = positions[i][j];
+      for (unsigned int d = 0; d < dim && turns_finitely; ++d)
+        x[d] += u(free_unknowns[i][j] - component + d);
+    }
+  for (unsigned int k = 0; k < bases[i].n(); ++k)
+    if (is_rigid)
+      result[k] = bases[i](component, k);
+    else
+      for (unsigned int m = 0; m < Motions::n_motions; ++m)
+        result[k] += bases[i](m, k) * rigid_motions[i].motion(m, x)[component];
+  return result;
+}
+
+template <int dim>
+std::vector<dealii::FullMatrix<double>>
+FreeBodies<dim>::inverse_masses(const Vector &mass, const Vector &u) const
+{
+  constexpr unsigned int n = Motions::n_motions;
+  std::vector<double>    sums(free_motions.size() * n * n, 0.);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+      {
+        const auto modes = motions_of(i, j, u);
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          for (unsigned int l = 0; l < bases[i].n(); ++l)
+            sums[(i * n + k) * n + l] += mass(free_unknowns[i][j]) * modes[k] * modes[l];
+      }
+  dealii::Utilities::MPI::sum(sums, communicator, sums);
+  std::vector<dealii::FullMatrix<double>> result;
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    {
+      dealii::FullMatrix<double> matrix(bases[i].n(), bases[i].n());
+      for (unsigned int k = 0; k < bases[i].n(); ++k)
+        for (unsigned int l = 0; l < bases[i].n(); ++l)
+          matrix(k, l) = sums[(i * n + k) * n + l];
+      matrix.gauss_jordan();
+      result.push_back(matrix);
+    }
+  return result;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::times(const std::vector<dealii::FullMatrix<double>> &matrices,
+                       const Coordinates                             &coordinates) const
+{
+  Coordinates result(n_coordinates, 0.);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int k = 0; k < bases[i].n(); ++k)
+      for (unsigned int l = 0; l < bases[i].n(); ++l)
+        result[first[i] + k] += matrices[i](k, l) * coordinates[first[i] + l];
+  return result;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const Vector &at,
+                           const Vector *mass, Vector &result) const
+{
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+      {
+        const DofIndex unknown = free_unknowns[i][j];
+        const auto     modes   = motions_of(i, j, at);
+        const double   sum     = std::inner_product(modes.begin(), modes.begin() + bases[i].n(),
+                                                    motion.begin() + first[i], 0.);
+        result(unknown) += factor * (mass ? (*mass)(unknown) : 1.) * sum;
+      }
+  result.compress(dealii::VectorOperation::add);
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::neutral_part(const Coordinates &forces) const
+{
+  double coarsest = 0.;
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    coarsest = std::max(coarsest, tolerance(i));
+  const auto motions = not_resisted(4. * coarsest * coarsest);
+  if (motions.empty())
+    return {};
+  std::vector<double> acting(free_motions.size(), 0.);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      const ContactPair       &pair  = contact.pairs()[point.pair];
+      for (const unsigned int body : {pair.a, pair.b})
+        if (number_of[body] != none)
+          acting[number_of[body]]
+            += point.weight * contact.responses()[i].traction(point.normal).norm();
+    }
+  dealii::Utilities::MPI::sum(acting, communicator, acting);
+  Coordinates result;
+  for (const Coordinates &motion : motions)
+    {
+      const double force = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.);
+      double       scale = 0.;
+      for (unsigned int i = 0; i < free_motions.size(); ++i)
+        {
+          scale = std::hypot(scale, magnitude(motion, i) * tolerance(i) * acting[i]);
+        }
+      if (scale == 0. || std::abs(force) > 2. * scale)
+        continue;
+      result.resize(n_coordinates, 0.);
+      for (unsigned int k = 0; k < n_coordinates; ++k)
+        result[k] += force * motion[k];
+    }
+  return result;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::subtract(const Coordinates &forces, const Vector &mass, Vector &r) const
+{
+  const Vector start(r.locally_owned_elements(), communicator); // u = 0
+  add_small(-1., times(inverse_masses(mass, start), forces), start, &mass, r);
+}
+
+template <int dim>
+void
+FreeBodies<dim>::advance(const Vector &du, const Vector &mass, Vector &u) const
+{
+  if (!turns_finitely || free_motions.empty())
+    {
+      u += du;
+      return;
+    }
+  Coordinates forces(n_coordinates, 0.); // R^T M du
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+      {
+        const auto modes = motions_of(i, j, u);
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          forces[first[i] + k] += mass(free_unknowns[i][j]) * modes[k] * du(free_unknowns[i][j]);
+      }
+  dealii::Utilities::MPI::sum(forces, communicator, forces);
+  const Coordinates q = times(inverse_masses(mass, u), forces);
+  const Vector      start(u);
+  u += du;
+  add_small(-1., q, start, nullptr, u);
+  add(q, u);
+}
+
+template <int dim>
+void
+FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
+{
+  const Vector before(u);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    {
+      const bool                             is_rigid = bodies[free_motions[i].body].is_rigid();
+      std::array<double, Motions::n_motions> q        = {};
+      for (unsigned int m = 0; m < q.size(); ++m)
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          q[m] += bases[i](m, k) * motion[first[i] + k];
+      for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+        {
+          const unsigned int component = free_components[i][j];
+          double             increment = 0.;
+          if (is_rigid)
+            increment = q[component];
+          else if (turns_finitely)
+            {
+              auto x = positions[i][j];
+              for (unsigned int d = 0; d < dim; ++d)
+                x[d] += before(free_unknowns[i][j] - component + d);
+              increment = rigid_motions[i].finite_motion(q, x)[component];
+            }
+          else
+            for (unsigned int m = 0; m < q.size(); ++m)
+              increment += q[m] * rigid_motions[i].motion(m, positions[i][j])[component];
+          u(free_unknowns[i][j]) += increment;
+        }
+    }
+  u.compress(dealii::VectorOperation::add);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template std::vector<double> FreeBodies<dim>::neutral_part(const std::vector<double> &) const; \
+  template void FreeBodies<dim>::subtract(const std::vector<double> &, const Vector &, Vector &) \
+    const;                                                                                       \
+  template void FreeBodies<dim>::advance(const Vector &, const Vector &, Vector &) const;        \
+  template void FreeBodies<dim>::add(const std::vector<double> &, Vector &) const;
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree
