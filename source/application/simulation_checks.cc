@@ -14,6 +14,8 @@ namespace
 {
 /** Of the forces on a body: the imbalance that ends a run. */
 constexpr double largest_imbalance = 1e-3;
+/** Of the forces on a body: the imbalance on neutral motions that is told. */
+constexpr double told_imbalance = 1e-2;
 /** Of a stiffness times a motion: what is no force but rounding. */
 constexpr double no_force = 1e-11;
 /** Of the result: the error of linear kinematics that is told. */
@@ -75,7 +77,7 @@ Simulation<dim>::throw_out_of_balance(const BodyBalance<dim> &balance, const boo
 
 template <int dim>
 std::vector<BodyBalance<dim>>
-Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u) const
+Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u)
 {
   const auto balances = equilibrium->balance(u);
   // Of bodies without any forces: what moving the softest of them leaves by rounding.
@@ -100,6 +102,13 @@ Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u) con
         = 2. * balance.radius * allowed
           + (is_moving() ? 2. * balance.largest_u * balance.force_scale : 0.);
       const bool is_force = !(balance.force.norm() <= allowed);
+      if (equilibrium->neutral_force(balance.body) > told_imbalance * balance.force_scale
+          && warned_pairs.insert({balance.body, dealii::numbers::invalid_unsigned_int}).second)
+        log.line(
+          "Warning: contact at few points holds the body " + bodies[balance.body].name
+          + " in balance only to "
+          + short_number(100. * equilibrium->neutral_force(balance.body) / balance.force_scale)
+          + " % of what acts on it, on motions that no load drives; refine the grid there");
       const bool has_moments
         = !is_moving()
           || balances_moments(
@@ -199,7 +208,7 @@ Simulation<dim>::require_inside_box() const
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template void Simulation<dim>::throw_out_of_balance(const BodyBalance<dim> &, const bool) const; \
   template std::vector<BodyBalance<dim>> Simulation<dim>::require_balance(                         \
-    const typename Equilibrium<dim>::Vector &) const;                                              \
+    const typename Equilibrium<dim>::Vector &);                                                    \
   template void Simulation<dim>::warn_of_rotations(const std::vector<BodyBalance<dim>> &,          \
                                                    const typename Equilibrium<dim>::Vector &);     \
   template void Simulation<dim>::require_prescribable();                                           \

@@ -62,8 +62,6 @@ Simulation<dim>::first_guess(const double time)
           smallest = r.l2_norm();
         }
     }
-  if (!equilibrium->free_bodies().empty())
-    equilibrium->settle(guesses[best], state.contact);
   return guesses[best];
 }
 
@@ -327,14 +325,14 @@ Simulation<dim>::resolve_overlap()
 }
 
 template <int dim>
-void
+bool
 Simulation<dim>::settle()
 {
-  constexpr unsigned int max_moves = 200;
-  if (step_control.n_accepted() > 0 || !is_moving() || equilibrium->free_bodies().empty())
-    return;
-  constexpr double negligible = 1e-3;
-  unsigned int     n_moves    = 0;
+  constexpr unsigned int max_moves  = 200;
+  constexpr double       negligible = 1e-3;
+  if (!is_moving() || equilibrium->free_bodies().empty())
+    return false;
+  unsigned int n_moves = 0;
   for (; n_moves < max_moves; ++n_moves)
     {
       auto u = state.displacement, r = u, unused = u;
@@ -345,17 +343,19 @@ Simulation<dim>::settle()
       if (!work || *work < negligible)
         break;
       equilibrium->residual(u, state.contact, r);
-      points_at_end = moved_points(u);
+      points_at_end     = moved_points(u);
+      const double lack = equilibrium->energies().balance_error();
       equilibrium->accept(u, state.contact);
-      equilibrium->count_overlap();
+      equilibrium->count_as_transfer(lack);
       state.displacement = u;
       state.contact      = contact->current_history();
       geometry_has_moved = true;
       move_geometry();
     }
   if (n_moves > 0)
-    log.line("Bodies that nothing holds fall until contact does, in " + std::to_string(n_moves)
+    log.line("  bodies that nothing holds fall until contact does, in " + std::to_string(n_moves)
              + " move(s)");
+  return n_moves > 0;
 }
 
 template <int dim>
@@ -398,7 +398,7 @@ Simulation<dim>::require_equilibrium_exists()
   template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
   template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
   template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
-  template void Simulation<dim>::settle();                                                         \
+  template bool Simulation<dim>::settle();                                                         \
   template void Simulation<dim>::resolve_overlap();                                                \
   template bool Simulation<dim>::solve_step(const double);                                         \
   template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \

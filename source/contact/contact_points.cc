@@ -376,6 +376,20 @@ ContactPoints<dim>::couplings() const
   return result;
 }
 
+template <int dim>
+double
+ContactPoints<dim>::gap(const unsigned int point) const
+{
+  return contact_points[point].initial_gap + contact_points[point].normal * contact_jumps[point];
+}
+
+template <int dim>
+double
+ContactPoints<dim>::modulus(const unsigned int pair) const
+{
+  return pair_modulus[pair];
+}
+
 template class ContactPoints<2>;
 template class ContactPoints<3>;
 } // namespace scree

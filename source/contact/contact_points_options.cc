@@ -37,10 +37,19 @@ ContactPoints<dim>::overlaps(const MPI_Comm communicator) const
   return result;
 }
 
+template <int dim>
+void
+ContactPoints<dim>::resolve_overlap(const std::vector<double> &allowances)
+{
+  pair_allowances = allowances;
+}
+
 #define SCREE_INSTANTIATE(dim)                                                  \
   template void                ContactPoints<dim>::freeze_friction(const bool); \
   template std::vector<double> ContactPoints<dim>::overlaps(const MPI_Comm) const;
 
+template void ContactPoints<2>::resolve_overlap(const std::vector<double> &);
+template void ContactPoints<3>::resolve_overlap(const std::vector<double> &);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 } // namespace scree

@@ -415,6 +415,69 @@ Equilibrium<dim>::condition_names() const
   return names;
 }
 
+template <int dim>
+std::vector<double>
+Equilibrium<dim>::tangent_changes() const
+{
+  return contact.tangent_changes();
+}
+
+template <int dim>
+void
+Equilibrium<dim>::advance(const Vector &du, Vector &u) const
+{
+  free.advance(du, artificial_mass, u);
+}
+
+template <int dim>
+double
+Equilibrium<dim>::neutral_force(const unsigned int body) const
+{
+  return neutral_forces[body];
+}
+
+template <int dim>
+void
+Equilibrium<dim>::count_as_transfer(const double but)
+{
+  current_energies.transfer -= current_energies.balance_error() - but;
+}
+
+template <int dim>
+const StrongSupports<dim> &
+Equilibrium<dim>::strong_supports() const
+{
+  return supports;
+}
+
+template <int dim>
+const RigidBodies<dim> &
+Equilibrium<dim>::rigid_bodies() const
+{
+  return rigid;
+}
+
+template <int dim>
+const std::vector<FreeMotion> &
+Equilibrium<dim>::free_bodies() const
+{
+  return free.motions();
+}
+
+template <int dim>
+const FreeBodies<dim> &
+Equilibrium<dim>::free_motions() const
+{
+  return free;
+}
+
+template <int dim>
+const Energies &
+Equilibrium<dim>::energies() const
+{
+  return current_energies;
+}
+
 template class Equilibrium<2>;
 template class Equilibrium<3>;
 } // namespace scree

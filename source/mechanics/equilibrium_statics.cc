@@ -53,22 +53,6 @@ Equilibrium<dim>::loads_on_free_bodies() const
 }
 
 template <int dim>
-void
-Equilibrium<dim>::settle(Vector &u, const ContactHistory<dim> &history)
-{
-  Vector r(u);
-  residual(u, history, r);
-  const auto evaluate = [&](const typename FreeBodies<dim>::Coordinates &motion) {
-    Vector moved(u);
-    free.add(motion, moved);
-    residual(moved, history, r);
-  };
-  const auto motion = free.settling(loads_on_free_bodies(), evaluate);
-  if (!motion.empty())
-    free.add(motion, u);
-}
-
-template <int dim>
 typename FreeBodies<dim>::Coordinates
 Equilibrium<dim>::unbalanced_loads() const
 {
@@ -104,7 +88,7 @@ Equilibrium<dim>::hold_neutral_motions(Vector &r)
   neutral_forces.assign(bodies.size(), 0.);
   if (is_linear_but_for_contact() || free_bodies().empty())
     return;
-  const auto forces = free.neutral_part(free.resultants(r));
+  const auto forces = free.neutral_part(free.resultants(r), loads_on_free_bodies());
   if (forces.empty())
     return;
   free.subtract(forces, artificial_mass, r);
@@ -112,14 +96,13 @@ Equilibrium<dim>::hold_neutral_motions(Vector &r)
     neutral_forces[free_bodies()[i].body] = free.magnitude(forces, i);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;         \
-  template void                  Equilibrium<dim>::set_artificial_mass(const double);             \
-  template double                Equilibrium<dim>::artificial_work(const Vector &) const;         \
-  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;                  \
-  template void                  Equilibrium<dim>::settle(Vector &, const ContactHistory<dim> &); \
-  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                      \
-  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                         \
+#define SCREE_INSTANTIATE(dim)                                                            \
+  template void                  Equilibrium<dim>::shorten(Vector &, const double) const; \
+  template void                  Equilibrium<dim>::set_artificial_mass(const double);     \
+  template double                Equilibrium<dim>::artificial_work(const Vector &) const; \
+  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;          \
+  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;              \
+  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                 \
     Vector &, const ContactHistory<dim> &, const bool) const;
 
 template void Equilibrium<2>::hold_neutral_motions(Vector &);

@@ -21,6 +21,7 @@ constexpr double       lightest         = 1e-3; // body, of the heaviest one
 constexpr double       first_damping    = 1e-2;
 constexpr double       smallest_damping = 1e-10;
 constexpr double       overshoot        = 0.5;
+constexpr double       lost             = 0.5;
 constexpr double       search_reduction = 0.1;
 constexpr unsigned int max_trials       = 30;
 } // namespace
@@ -29,12 +30,16 @@ constexpr unsigned int max_trials       = 30;
 template <int dim>
 struct FreeBodies<dim>::Balance
 {
-  Balance(const FreeBodies &free, const Coordinates &loads, const ContactHistory<dim> &history);
+  Balance(const FreeBodies &free, const Coordinates &loads, const ContactHistory<dim> &history,
+          const bool is_falling);
 
   void evaluate(const Coordinates &q);
 
   /** Whether no body misses its balance by more than a part of what acts on it. */
   bool is_balanced() const;
+
+  /** Whether contact carries less than half of what acts on some body. */
+  bool has_lost_contact() const;
 
   /** dq of (K + s M) dq = F, not longer than `length`. */
   Coordinates direction(const double length, const double damping) const;
@@ -58,7 +63,7 @@ struct FreeBodies<dim>::Balance
 
 template <int dim>
 FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loads,
-                                  const ContactHistory<dim> &history)
+                                  const ContactHistory<dim> &history, const bool is_falling)
     : free(free)
     , loads(loads)
     , history(history)
@@ -110,7 +115,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
   const double heaviest = *std::max_element(load.begin(), load.end());
   for (unsigned int i = 0; i < load.size(); ++i)
     mass.insert(mass.end(), free.bases[i].n(),
-                heaviest == 0. ? 1. : std::max(lightest, load[i] / heaviest));
+                heaviest == 0. || !is_falling ? 1. : std::max(lightest, load[i] / heaviest));
 }
 
 template <int dim>
@@ -170,6 +175,16 @@ FreeBodies<dim>::Balance::is_balanced() const
 }
 
 template <int dim>
+bool
+FreeBodies<dim>::Balance::has_lost_contact() const
+{
+  for (unsigned int i = 0; i < acting.size(); ++i)
+    if (free.magnitude(forces, i) > lost * acting[i])
+      return true;
+  return false;
+}
+
+template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::Balance::direction(const double length, const double damping) const
 {
@@ -220,13 +235,14 @@ typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &history,
                            const bool is_settling) const
 {
-  const double length = turns_finitely ? 0.5 * cell_size : cell_size;
-  Balance      balance(*this, loads, history);
-  double       damping = first_damping;
-  const double least   = is_settling || !turns_finitely ? smallest_damping : first_damping;
+  const double length     = turns_finitely ? 0.5 * cell_size : cell_size;
+  const bool   is_falling = is_settling || !turns_finitely;
+  const double least      = is_falling ? smallest_damping : first_damping;
+  double       damping    = first_damping;
+  Balance      balance(*this, loads, history, is_falling);
   Coordinates  q(n_coordinates, 0.);
   balance.evaluate(q);
-  if (balance.is_balanced())
+  if (is_settling ? balance.is_balanced() : !balance.has_lost_contact())
     return {};
   // Contact points stay where they are in a step: a moving geometry follows after a cell.
   const auto room = [&]() {

@@ -91,41 +91,46 @@ FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const
 
 template <int dim>
 typename FreeBodies<dim>::Coordinates
-FreeBodies<dim>::neutral_part(const Coordinates &forces) const
+FreeBodies<dim>::neutral_part(const Coordinates &forces, const Coordinates &loads) const
 {
+  constexpr double no_work = 1e-3;
+  const auto       product = [](const Coordinates &a, const Coordinates &b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+  };
   double coarsest = 0.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     coarsest = std::max(coarsest, tolerance(i));
-  const auto motions = not_resisted(4. * coarsest * coarsest);
-  if (motions.empty())
+  const auto  motions = not_resisted(4. * coarsest * coarsest);
+  Coordinates weak(n_coordinates, 0.), driven(n_coordinates, 0.); // parts of forces and loads
+  for (const Coordinates &motion : motions)
+    for (unsigned int k = 0; k < n_coordinates; ++k)
+      {
+        weak[k] += product(motion, forces) * motion[k];
+        driven[k] += product(motion, loads) * motion[k];
+      }
+  if (const double square = product(driven, driven);
+      std::sqrt(square) > no_work * std::sqrt(product(loads, loads)))
+    {
+      const double along = product(driven, weak) / square;
+      for (unsigned int k = 0; k < n_coordinates; ++k)
+        weak[k] -= along * driven[k];
+    }
+  const double size = std::sqrt(product(weak, weak));
+  if (size == 0.)
     return {};
   std::vector<double> acting(free_motions.size(), 0.);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const ContactPoint<dim> &point = contact.points()[i];
-      const ContactPair       &pair  = contact.pairs()[point.pair];
-      for (const unsigned int body : {pair.a, pair.b})
-        if (number_of[body] != none)
-          acting[number_of[body]]
-            += point.weight * contact.responses()[i].traction(point.normal).norm();
-    }
+    for (const unsigned int body :
+         {contact.pairs()[contact.points()[i].pair].a, contact.pairs()[contact.points()[i].pair].b})
+      if (number_of[body] != none)
+        acting[number_of[body]]
+          += contact.points()[i].weight
+             * contact.responses()[i].traction(contact.points()[i].normal).norm();
   dealii::Utilities::MPI::sum(acting, communicator, acting);
-  Coordinates result;
-  for (const Coordinates &motion : motions)
-    {
-      const double force = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.);
-      double       scale = 0.;
-      for (unsigned int i = 0; i < free_motions.size(); ++i)
-        {
-          scale = std::hypot(scale, magnitude(motion, i) * tolerance(i) * acting[i]);
-        }
-      if (scale == 0. || std::abs(force) > 2. * scale)
-        continue;
-      result.resize(n_coordinates, 0.);
-      for (unsigned int k = 0; k < n_coordinates; ++k)
-        result[k] += force * motion[k];
-    }
-  return result;
+  double allowed = 0.;
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    allowed = std::hypot(allowed, magnitude(weak, i) / size * 2. * tolerance(i) * acting[i]);
+  return size > allowed ? Coordinates() : weak;
 }
 
 template <int dim>
@@ -196,7 +201,8 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                   \
-  template std::vector<double> FreeBodies<dim>::neutral_part(const std::vector<double> &) const; \
+  template std::vector<double> FreeBodies<dim>::neutral_part(const std::vector<double> &,        \
+                                                             const std::vector<double> &) const; \
   template void FreeBodies<dim>::subtract(const std::vector<double> &, const Vector &, Vector &) \
     const;                                                                                       \
   template void FreeBodies<dim>::advance(const Vector &, const Vector &, Vector &) const;        \

@@ -170,31 +170,4 @@ unbalanced_part(const std::vector<double> &f, const std::vector<double> &columns
     set.solve(tolerance);
   return set.r();
 }
-
-std::vector<double>
-shortest_feasible(const std::vector<double> &rows, const std::vector<double> &h,
-                  const std::size_t n)
-{
-  constexpr double infeasible = 1e-7;
-  double           scale      = 0.;
-  for (const double value : h)
-    scale = std::max(scale, std::abs(value));
-  std::vector<double> z(n, 0.);
-  if (scale == 0.)
-    return z;
-  // With lengths in units of `scale`: r = sum of y_j (g_j, h_j) - (0, 1), z = -r/r_{n+1}.
-  std::vector<double> columns, f(n + 1, 0.);
-  f[n] = -1.;
-  for (std::size_t j = 0; j < h.size(); ++j)
-    {
-      columns.insert(columns.end(), rows.begin() + j * n, rows.begin() + (j + 1) * n);
-      columns.push_back(h[j] / scale);
-    }
-  const std::vector<double> r = unbalanced_part(f, columns);
-  if (-r[n] < infeasible)
-    return {};
-  for (std::size_t i = 0; i < n; ++i)
-    z[i] = -scale * r[i] / r[n];
-  return z;
-}
 } // namespace scree

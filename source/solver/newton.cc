@@ -144,12 +144,13 @@ Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
 {
 }
 
-void
-Newton::residual(Vector &u, Vector &r) const
+bool
+Newton::balance(Vector &u, Vector &r) const
 {
-  hooks.residual(u, r);
-  for (unsigned int k = 0; k < max_balances && hooks.balance && hooks.balance(u); ++k)
+  unsigned int k = 0;
+  for (; k < max_balances && hooks.balance && hooks.balance(u); ++k)
     hooks.residual(u, r);
+  return k > 0;
 }
 
 void
@@ -165,7 +166,7 @@ Newton::evaluate(Step &step, const double alpha, const Vector &u, const Vector &
     }
   else
     step.u.add(alpha, du);
-  residual(step.u, step.r);
+  hooks.residual(step.u, step.r);
   step.norm = step.r.l2_norm();
   ++step.evaluations;
 }
@@ -300,7 +301,8 @@ Newton::iterate(Vector &u, Progress &progress) const
   Vector       r(u), du(u);
   double       linear_tolerance = parameters.loosest_linear_tolerance;
   unsigned int n_short_steps    = 0;
-  residual(u, r);
+  hooks.residual(u, r);
+  balance(u, r);
   iteration.residual = r.l2_norm();
 
   const auto ended_as = [&](const NewtonStatus status, const std::string &message) {
@@ -365,7 +367,7 @@ Newton::iterate(Vector &u, Progress &progress) const
         progress.adapt(step.alpha);
       u                           = step.u;
       r                           = step.r;
-      iteration.residual          = step.norm;
+      iteration.residual          = balance(u, r) ? r.l2_norm() : step.norm;
       n_short_steps               = step.alpha < short_step ? n_short_steps + 1 : 0;
       iteration.step_length       = step.alpha;
       iteration.increment         = step.alpha * du.l2_norm();

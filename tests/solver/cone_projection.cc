@@ -69,21 +69,3 @@ TEST(ConeProjection, SatisfiesFarkas)
       EXPECT_NEAR(dot(r.data(), f.data(), n), dot(r.data(), r.data(), n), 1e-8);
     }
 }
-
-TEST(ConeProjection, ShortestFeasible)
-{
-  // z_0 >= 1 and z_0 + z_1 >= 3: the second alone has the point (1.5, 1.5).
-  auto z = shortest_feasible({1., 0., 1., 1.}, {1., 3.}, 2);
-  ASSERT_EQ(z.size(), 2u);
-  EXPECT_NEAR(z[0], 1.5, 1e-9);
-  EXPECT_NEAR(z[1], 1.5, 1e-9);
-  // with z_0 >= 2 both are active
-  z = shortest_feasible({1., 0., 1., 1.}, {2., 3.}, 2);
-  EXPECT_NEAR(z[0], 2., 1e-9);
-  EXPECT_NEAR(z[1], 1., 1e-9);
-  // lengths may have any unit
-  z = shortest_feasible({1., 0., 1., 1.}, {2e-9, 3e-9}, 2);
-  EXPECT_NEAR(z[1], 1e-9, 1e-17);
-  // z_0 >= 1 and -z_0 >= 0
-  EXPECT_TRUE(shortest_feasible({1., 0., -1., 0.}, {1., 0.}, 2).empty());
-}

@@ -78,10 +78,7 @@ public:
   /** Nodal values of the level sets of all bodies. */
   double n_level_set_values() const;
 
-  unsigned int n_unknowns() const
-  {
-    return fields->n_dofs();
-  }
+  unsigned int n_unknowns() const;
 
 private:
   void                     set_up();
@@ -126,7 +123,7 @@ private:
   typename Equilibrium<dim>::Vector predicted(const double time) const;
   // What a converged step must satisfy, simulation_checks.cc.
   /** Forces and moments of every body; @throws UserError if they are not in balance */
-  std::vector<BodyBalance<dim>> require_balance(const typename Equilibrium<dim>::Vector &u) const;
+  std::vector<BodyBalance<dim>> require_balance(const typename Equilibrium<dim>::Vector &u);
   [[noreturn]] void             throw_out_of_balance(const BodyBalance<dim> &balance,
                                                      const bool              is_force) const;
   /** Tells once of each body that it turned too far for linear kinematics. */
@@ -164,10 +161,11 @@ private:
    */
   void resolve_overlap();
   /**
-   * Before the first step on a moving geometry free bodies fall as rigid ones, driven by the loads
-   * of that step, until contact holds them; by half a cell at a time.
+   * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
+   * until contact holds them, by half a cell at a time: before the first step, and where a step
+   * fails. What that releases is Energies::transfer. Whether anything moved.
    */
-  void settle();
+  bool settle();
   /** One part of it, which leaves the overlaps of the pairs times `left`. */
   bool resolve_part(const std::vector<double> &overlaps, const double left);
   /** Whether the geometry has moved or a step was accepted. */
@@ -241,8 +239,8 @@ private:
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
   std::set<std::pair<unsigned int, unsigned int>>
-    warned_pairs;                              //!< told once; (b, b): body b at the box,
-                                               //!< (b, a) with b > a: under-resolved
+    warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
+                  //!< (b, a) with b > a: under-resolved
   std::set<unsigned int>     warned_rotations; //!< bodies, told once
   std::vector<bool>          was_closed;       //!< contact points, at the end of some step
   std::vector<ContactStatus> last_status;      //!< of the contact points in the last iteration

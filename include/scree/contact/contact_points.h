@@ -88,10 +88,7 @@ public:
    * Resolves initial overlap: no friction until the next call, but what is tied stays tied, and the
    * gaps of each pair are larger by its allowance [L]. Empty: friction again, and no allowance.
    */
-  void resolve_overlap(const std::vector<double> &allowances)
-  {
-    pair_allowances = allowances;
-  }
+  void resolve_overlap(const std::vector<double> &allowances);
 
   /**
    * Keeps the bounds mu p of the last evaluation for the next ones, or lets them follow the
@@ -131,16 +128,10 @@ public:
   }
 
   /** Gap g_0 + n.[[u]] of the last evaluation. */
-  double gap(const unsigned int point) const
-  {
-    return contact_points[point].initial_gap + contact_points[point].normal * contact_jumps[point];
-  }
+  double gap(const unsigned int point) const;
 
   /** The E of a pair's penalties [force/area]. */
-  double modulus(const unsigned int pair) const
-  {
-    return pair_modulus[pair];
-  }
+  double modulus(const unsigned int pair) const;
 
   /** Contact forces of the last evaluation on a rigid body, of the points of this process. */
   typename RigidPose<dim>::Load rigid_load(const unsigned int body) const;

@@ -68,6 +68,9 @@ public:
   /** Takes what the accepted state stores as external work: overlapping bodies were assembled. */
   void count_overlap();
 
+  /** Takes what the accepted state lacks in the balance of energies as transfer, but for `but`. */
+  void count_as_transfer(const double but);
+
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
 
@@ -82,10 +85,7 @@ public:
   Condensation condensation(const bool only_closed);
 
   /** E at the u of the last residual(), blocks of dim x dim. */
-  std::vector<double> tangent_changes() const
-  {
-    return contact.tangent_changes();
-  }
+  std::vector<double> tangent_changes() const;
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
@@ -103,35 +103,22 @@ public:
   double artificial_work(const Vector &du) const;
 
   /** u += du, where free bodies turn without strain, see FreeBodies::advance() (collective). */
-  void advance(const Vector &du, Vector &u) const
-  {
-    free.advance(du, artificial_mass, u);
-  }
+  void advance(const Vector &du, Vector &u) const;
 
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
 
-  /** The |r| that round-off in A u, or on a moving geometry in A x, leaves at the last residual().
-   */
+  /** The |r| that round-off in A u (moving geometry: A x) leaves at the last residual(). */
   double round_off() const;
 
   /** The rigid motions for the near null space, see near_null_space(). */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
-  const std::vector<FreeMotion> &free_bodies() const
-  {
-    return free.motions();
-  }
+  const std::vector<FreeMotion> &free_bodies() const;
 
   /** Free bodies, and what supports and the contact of the last residual() leave to them. */
-  const FreeBodies<dim> &free_motions() const
-  {
-    return free;
-  }
-
-  /** Lets free bodies fall until they touch, see FreeBodies::settling() (collective). */
-  void settle(Vector &u, const ContactHistory<dim> &history);
+  const FreeBodies<dim> &free_motions() const;
 
   /**
    * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
@@ -149,10 +136,7 @@ public:
   bool has_free_rigid_bodies() const;
 
   /** What of the forces on a body residual() left out, see FreeBodies::neutral_part() [force]. */
-  double neutral_force(const unsigned int body) const
-  {
-    return neutral_forces[body];
-  }
+  double neutral_force(const unsigned int body) const;
 
   /** Whether tangents change by contact alone. */
   bool is_linear_but_for_contact() const
@@ -160,10 +144,7 @@ public:
     return bulk.step_start() == nullptr;
   }
 
-  const RigidBodies<dim> &rigid_bodies() const
-  {
-    return rigid;
-  }
+  const RigidBodies<dim> &rigid_bodies() const;
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -185,15 +166,9 @@ public:
   void accept(const Vector &u, const ContactHistory<dim> &old_history);
 
   /** Energies of the accepted state. */
-  const Energies &energies() const
-  {
-    return current_energies;
-  }
+  const Energies &energies() const;
 
-  const StrongSupports<dim> &strong_supports() const
-  {
-    return supports;
-  }
+  const StrongSupports<dim> &strong_supports() const;
 
 private:
   void                                  set_up_matrices();

@@ -67,12 +67,13 @@ public:
   std::vector<Coordinates> not_resisted(const double negligible = 1e-6) const;
 
   /**
-   * What of the forces on the coordinates acts on neutral motions, where nothing but errors of the
-   * normals is between them and indifference: the spin of a disc without friction. Motions that
-   * the contact of the last evaluation resists by less than 1e-4, along which the forces are at
-   * most 5e-3 of what acts on the bodies. Empty: there are none (collective).
+   * What of the forces on the coordinates acts on neutral motions, on which loads do no work and
+   * which contact resists only because it acts at points, up to half a spacing beside where it
+   * should: the spin of a disc without friction. Motions that the contact of the last evaluation
+   * resists by less than (h/2L)^2 of the trace, L half the size of the body; empty if the forces
+   * exceed h/2L of what acts on the bodies (collective).
    */
-  Coordinates neutral_part(const Coordinates &forces) const;
+  Coordinates neutral_part(const Coordinates &forces, const Coordinates &loads) const;
 
   /** Length of what acts on a free body. */
   double magnitude(const Coordinates &forces, const unsigned int free_body) const;
@@ -101,20 +102,6 @@ public:
    * lemma, see unbalanced_part()). Collective.
    */
   Coordinates unbalanced(const Coordinates &resultants) const;
-
-  /**
-   * How the bodies that are not held fall as rigid ones until contact stops them: with their
-   * resultants f_b, weights |f_b| and the gaps g_i of the last evaluation, the motion q that
-   *
-   *     minimises sum_b |f_b| |q_b - D f_b/|f_b||^2   under   max(g_i, 0) + (n.[[q]])_i >= 0,
-   *
-   * D three times the sum of their gaps: everything falls far enough to meet something, what
-   * nothing stops does not go far. Empty: no such body is away from all others (collective).
-   *
-   * @param evaluate evaluates the contact after a motion: what its gaps are then corrects n.[[q]]
-   */
-  Coordinates settling(const Coordinates                              &resultants,
-                       const std::function<void(const Coordinates &)> &evaluate) const;
 
   /**
    * How the free bodies move as rigid ones until contact and loads balance, from the jumps of the
@@ -180,11 +167,6 @@ private:
   /** result += factor M R motion, R the motions from `at` on, M = 1 if null. */
   void add_small(const double factor, const Coordinates &motion, const Vector &at,
                  const Vector *mass, Vector &result) const;
-  /** The q nearest to `wanted` with room + columns q >= 0; empty: there is none (collective). */
-  Coordinates least_motion(const Coordinates &columns, const Coordinates &room,
-                           const Coordinates &weight, const Coordinates &wanted) const;
-  /** Smallest gap around each free body, 0 if it touches. */
-  std::vector<double> gaps() const;
   /** Appends what the coordinates do to the relative motion at a contact point along `direction`.
    */
   void append_column(const ContactPoint<dim> &point, const dealii::Tensor<1, dim> &direction,

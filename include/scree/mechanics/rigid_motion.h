@@ -38,6 +38,13 @@ public:
       size = std::max(size, 0.5 * body.box.side_length(d));
   }
 
+  /** About a point, rotations scaled by a length [L]. */
+  RigidMotions(const dealii::Point<dim> &centre, const double length)
+      : centre(centre)
+      , size(length)
+  {
+  }
+
   /** Half the largest edge of the body's box [L]. */
   double length() const
   {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 namespace scree
@@ -20,11 +19,4 @@ namespace scree
  */
 std::vector<double> unbalanced_part(const std::vector<double> &f,
                                     const std::vector<double> &columns);
-
-/**
- * The shortest z with G z >= h; empty if there is none (Lawson and Hanson, chapter 23: least
- * distance programming by the problem above). G is given by its rows, n numbers each.
- */
-std::vector<double> shortest_feasible(const std::vector<double> &rows, const std::vector<double> &h,
-                                      const std::size_t n);
 } // namespace scree

@@ -135,6 +135,9 @@ struct NewtonResult
  * too, the next round goes on from where the first part ended. M holds what moves freely and never
  * enters r: what converged is in balance without it.
  *
+ * *Balance:* before the first and after every iteration a hook may move u to where forces on what
+ * moves freely balance, 6 times at most: no tangent knows of contact that is lost.
+ *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
  * the caller goes back to its saved state.
@@ -205,8 +208,8 @@ private:
 
   Step search_work(Step step, const Vector &u, const Vector &du, const double work) const;
 
-  /** r(u) where what moves freely is in balance. */
-  void residual(Vector &u, Vector &r) const;
+  /** Hooks::balance until it leaves u; whether it moved it. r is r(u) before and after. */
+  bool balance(Vector &u, Vector &r) const;
 
   void evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const;
 
