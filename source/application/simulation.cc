@@ -188,8 +188,9 @@ Simulation<dim>::run()
   while (!step_control.finished())
     if (solve_step(step_control.next_time()))
       {
-        record.attempts = attempts;
-        attempts        = 1;
+        record.attempts       = attempts;
+        attempts              = 1;
+        holds_neutral_motions = false;
         step_control.accept(record.newton_iterations);
         write_results();
         report_step(wall.wall_time());
@@ -204,8 +205,13 @@ Simulation<dim>::run()
       {
         ++attempts;
         require_equilibrium_exists();
-        if (attempts == 2 && settle())
-          continue;
+        if (attempts == 2 && is_moving() && !equilibrium->free_bodies().empty())
+          {
+            // A second time, after a fall and with neutral motions held.
+            settle();
+            holds_neutral_motions = true;
+            continue;
+          }
         require(step_control.reject(), "Time",
                 "the load step to time " + short_number(record.time)
                   + " was not solved, not even with the smallest step",

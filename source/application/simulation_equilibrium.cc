@@ -69,10 +69,11 @@ template <int dim>
 bool
 Simulation<dim>::solve_step(const double time)
 {
-  const unsigned int step   = step_control.n_accepted() + 1;
-  record                    = StepRecord();
-  record.step               = step;
-  record.time               = time;
+  const unsigned int step = step_control.n_accepted() + 1;
+  record                  = StepRecord();
+  record.step             = step;
+  record.time             = time;
+  equilibrium->set_neutral_held(holds_neutral_motions);
   auto               u      = first_guess(time);
   const NewtonResult result = solve_equilibrium(u);
   record.newton_iterations  = result.iterations;
@@ -325,13 +326,13 @@ Simulation<dim>::resolve_overlap()
 }
 
 template <int dim>
-bool
+void
 Simulation<dim>::settle()
 {
   constexpr unsigned int max_moves  = 200;
   constexpr double       negligible = 1e-3;
   if (!is_moving() || equilibrium->free_bodies().empty())
-    return false;
+    return;
   unsigned int n_moves = 0;
   for (; n_moves < max_moves; ++n_moves)
     {
@@ -355,7 +356,6 @@ Simulation<dim>::settle()
   if (n_moves > 0)
     log.line("  bodies that nothing holds fall until contact does, in " + std::to_string(n_moves)
              + " move(s)");
-  return n_moves > 0;
 }
 
 template <int dim>
@@ -398,7 +398,7 @@ Simulation<dim>::require_equilibrium_exists()
   template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
   template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
   template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
-  template bool Simulation<dim>::settle();                                                         \
+  template void Simulation<dim>::settle();                                                         \
   template void Simulation<dim>::resolve_overlap();                                                \
   template bool Simulation<dim>::solve_step(const double);                                         \
   template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \

@@ -430,6 +430,20 @@ Equilibrium<dim>::advance(const Vector &du, Vector &u) const
 }
 
 template <int dim>
+bool
+Equilibrium<dim>::is_linear_but_for_contact() const
+{
+  return bulk.step_start() == nullptr;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_neutral_held(const bool is_held)
+{
+  is_neutral_held = is_held;
+}
+
+template <int dim>
 double
 Equilibrium<dim>::neutral_force(const unsigned int body) const
 {

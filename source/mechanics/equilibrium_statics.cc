@@ -86,7 +86,7 @@ void
 Equilibrium<dim>::hold_neutral_motions(Vector &r)
 {
   neutral_forces.assign(bodies.size(), 0.);
-  if (is_linear_but_for_contact() || free_bodies().empty())
+  if (!is_neutral_held || is_linear_but_for_contact() || free_bodies().empty())
     return;
   const auto forces = free.neutral_part(free.resultants(r), loads_on_free_bodies());
   if (forces.empty())

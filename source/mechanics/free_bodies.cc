@@ -294,12 +294,22 @@ template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const
 {
-  Coordinates result(n_coordinates, 0.);
+  constexpr double round_off = 1e-10;
+  // Sums, then sums of magnitudes.
+  std::vector<double> sums(2 * n_coordinates, 0.);
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       for (unsigned int k = 0; k < bases[i].n(); ++k)
-        result[first[i] + k] += along(i, j, k) * forces(free_unknowns[i][j]);
-  dealii::Utilities::MPI::sum(result, communicator, result);
+        {
+          const double part = along(i, j, k) * forces(free_unknowns[i][j]);
+          sums[first[i] + k] += part;
+          sums[n_coordinates + first[i] + k] += std::abs(part);
+        }
+  dealii::Utilities::MPI::sum(sums, communicator, sums);
+  Coordinates result(sums.begin(), sums.begin() + n_coordinates);
+  for (unsigned int k = 0; k < n_coordinates; ++k)
+    if (std::abs(result[k]) <= round_off * sums[n_coordinates + k])
+      result[k] = 0.;
   return result;
 }
 

@@ -163,9 +163,9 @@ private:
   /**
    * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
    * until contact holds them, by half a cell at a time: before the first step, and where a step
-   * fails. What that releases is Energies::transfer. Whether anything moved.
+   * fails. What that releases is Energies::transfer.
    */
-  bool settle();
+  void settle();
   /** One part of it, which leaves the overlaps of the pairs times `left`. */
   bool resolve_part(const std::vector<double> &overlaps, const double left);
   /** Whether the geometry has moved or a step was accepted. */
@@ -238,6 +238,7 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
+  bool holds_neutral_motions = false; //!< in the step being solved, which failed before
   std::set<std::pair<unsigned int, unsigned int>>
     warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
                   //!< (b, a) with b > a: under-resolved

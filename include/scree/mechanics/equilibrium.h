@@ -84,7 +84,7 @@ public:
   /** @param only_closed glues the points that are closed at the last residual(), not all */
   Condensation condensation(const bool only_closed);
 
-  /** E at the u of the last residual(), blocks of dim x dim. */
+  /** E at the last residual(), blocks of dim x dim. */
   std::vector<double> tangent_changes() const;
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
@@ -116,7 +116,6 @@ public:
 
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &free_bodies() const;
-
   /** Free bodies, and what supports and the contact of the last residual() leave to them. */
   const FreeBodies<dim> &free_motions() const;
 
@@ -135,14 +134,14 @@ public:
 
   bool has_free_rigid_bodies() const;
 
-  /** What of the forces on a body residual() left out, see FreeBodies::neutral_part() [force]. */
+  /** Whether residual() leaves out forces on neutral motions, see FreeBodies::neutral_part(). */
+  void set_neutral_held(const bool is_held);
+
+  /** What of the forces on a body residual() left out [force]. */
   double neutral_force(const unsigned int body) const;
 
   /** Whether tangents change by contact alone. */
-  bool is_linear_but_for_contact() const
-  {
-    return bulk.step_start() == nullptr;
-  }
+  bool is_linear_but_for_contact() const;
 
   const RigidBodies<dim> &rigid_bodies() const;
 
@@ -217,12 +216,13 @@ private:
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet    ghosted_dofs;
-  double              time          = 0.;
-  double              accepted_time = 0.;
-  bool                is_unloaded   = true; //!< nothing was prescribed at the accepted state
-  bool                is_driven     = true; //!< forces act on rigid bodies
-  double              start_time    = 0.;   //!< of the step on a moving geometry
-  double              mass_factor   = default_mass_factor;
+  double              time            = 0.;
+  double              accepted_time   = 0.;
+  bool                is_unloaded     = true; //!< nothing was prescribed at the accepted state
+  bool                is_driven       = true; //!< forces act on rigid bodies
+  double              start_time      = 0.;   //!< of the step on a moving geometry
+  double              mass_factor     = default_mass_factor;
+  bool                is_neutral_held = false;
   std::vector<double> neutral_forces;                    //!< of the last residual(), by body
   double              largest_stiffness = 0.;            //!< largest diagonal entry of A
   Vector              diagonal;                          //!< of A

@@ -89,7 +89,8 @@ public:
   std::vector<unsigned int> not_held() const;
 
   /**
-   * Resultants of forces: what they do on the coordinates (collective).
+   * Resultants of forces: what they do on the coordinates; zero where that is round-off, below
+   * 1e-10 of the sum of magnitudes (collective).
    * @param forces by unknown, without ghosts
    */
   Coordinates resultants(const Vector &forces) const;
