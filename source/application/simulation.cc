@@ -184,7 +184,8 @@ Simulation<dim>::run()
   dealii::Timer wall;
   unsigned int  attempts = 1;
   resolve_overlap();
-  settle();
+  if (step_control.n_accepted() == 0)
+    settle();
   while (!step_control.finished())
     if (solve_step(step_control.next_time()))
       {
