@@ -171,7 +171,8 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     const Timings::Scope scope(timings, "residual");
     equilibrium->residual(u, state.contact, r);
   };
-  hooks.advance = [&](const Vector &du, Vector &u) { equilibrium->advance(du, u); };
+  if (is_moving() && !equilibrium->free_bodies().empty())
+    hooks.advance = [&](const Vector &du, Vector &u) { equilibrium->advance(du, u); };
   hooks.balance = [&](Vector &u) {
     const Timings::Scope scope(timings, "residual");
     const bool has_moved = equilibrium->balance_rigid_motions(u, state.contact).has_value();

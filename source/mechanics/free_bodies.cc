@@ -2,6 +2,7 @@
 #include <scree/mechanics/free_bodies.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
@@ -88,6 +89,7 @@ FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<di
       n_coordinates += basis.n();
     }
   find_unknowns(fields);
+  find_couplings();
   for (const ContactPoint<dim> &point : contact.points())
     cell_size = std::max(cell_size, point.cell_size);
   cell_size = dealii::Utilities::MPI::max(cell_size, communicator);
@@ -180,6 +182,38 @@ FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
 
 template <int dim>
 void
+FreeBodies<dim>::find_couplings()
+{
+  coordinates_of_pair.resize(contact.pairs().size());
+  dealii::DynamicSparsityPattern pattern(n_coordinates, n_coordinates);
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      auto &coordinates = coordinates_of_pair[p];
+      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
+        if (const unsigned int i = number_of[body]; i != none)
+          for (unsigned int k = 0; k < bases[i].n(); ++k)
+            coordinates.push_back(first[i] + k);
+      for (const unsigned int k : coordinates)
+        pattern.add_entries(k, coordinates.begin(), coordinates.end());
+    }
+  for (unsigned int k = 0; k < n_coordinates; ++k)
+    pattern.add(k, k);
+  couplings.copy_from(pattern);
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+FreeBodies<dim>::motion(const unsigned int i, const unsigned int k,
+                        const dealii::Point<dim> &x) const
+{
+  dealii::Tensor<1, dim> result;
+  for (unsigned int m = 0; m < Motions::n_motions; ++m)
+    result += bases[i](m, k) * rigid_motions[i].motion(m, x);
+  return result;
+}
+
+template <int dim>
+void
 FreeBodies<dim>::append_column(const ContactPoint<dim>      &point,
                                const dealii::Tensor<1, dim> &direction, Coordinates &columns) const
 {
@@ -191,12 +225,8 @@ FreeBodies<dim>::append_column(const ContactPoint<dim>      &point,
       const unsigned int i = number_of[body];
       if (i == none)
         continue;
-      for (unsigned int m = 0; m < Motions::n_motions; ++m)
-        {
-          const double along = sign * (rigid_motions[i].motion(m, point.position) * direction);
-          for (unsigned int k = 0; k < bases[i].n(); ++k)
-            columns[begin + first[i] + k] += along * bases[i](m, k);
-        }
+      for (unsigned int k = 0; k < bases[i].n(); ++k)
+        columns[begin + first[i] + k] += sign * (motion(i, k, point.position) * direction);
     }
 }
 
@@ -208,15 +238,9 @@ FreeBodies<dim>::not_resisted(const double negligible) const
     return {};
   // A matrix per pair over the motions of its two bodies, so that pairs of many points do not
   // drown others.
-  std::vector<std::vector<unsigned int>> coordinates(contact.pairs().size());
-  std::vector<DenseMatrix>               of_pair;
-  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
-    {
-      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
-        for (unsigned int k = 0; number_of[body] != none && k < bases[number_of[body]].n(); ++k)
-          coordinates[p].push_back(first[number_of[body]] + k);
-      of_pair.emplace_back(coordinates[p].size(), coordinates[p].size());
-    }
+  std::vector<DenseMatrix> of_pair;
+  for (const auto &coordinates : coordinates_of_pair)
+    of_pair.emplace_back(coordinates.size(), coordinates.size());
   Coordinates column;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
@@ -229,7 +253,7 @@ FreeBodies<dim>::not_resisted(const double negligible) const
       if (response.status == ContactStatus::stick && law.law != ContactLaw::frictionless)
         for (const auto &tangent : tangents_of<dim>(point.normal))
           directions.push_back(tangent);
-      const auto &c = coordinates[point.pair];
+      const auto &c = coordinates_of_pair[point.pair];
       for (const auto &direction : directions)
         {
           column.clear();
@@ -246,7 +270,7 @@ FreeBodies<dim>::not_resisted(const double negligible) const
       const double trace = of_pair[p].m() == 0 ? 0. : of_pair[p].trace();
       for (unsigned int k = 0; trace > 0. && k < of_pair[p].m(); ++k)
         for (unsigned int l = 0; l < of_pair[p].m(); ++l)
-          all(coordinates[p][k], coordinates[p][l]) += of_pair[p](k, l) / trace;
+          all(coordinates_of_pair[p][k], coordinates_of_pair[p][l]) += of_pair[p](k, l) / trace;
     }
   const DenseMatrix        vectors = null_space(all, negligible);
   std::vector<Coordinates> result;
@@ -279,18 +303,6 @@ FreeBodies<dim>::not_held() const
 }
 
 template <int dim>
-double
-FreeBodies<dim>::along(const unsigned int i, const unsigned int j, const unsigned int k) const
-{
-  if (bodies[free_motions[i].body].is_rigid())
-    return bases[i](free_components[i][j], k);
-  double result = 0.;
-  for (unsigned int m = 0; m < Motions::n_motions; ++m)
-    result += bases[i](m, k) * rigid_motions[i].motion(m, positions[i][j])[free_components[i][j]];
-  return result;
-}
-
-template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const
 {
@@ -299,12 +311,15 @@ FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces)
   std::vector<double> sums(2 * n_coordinates, 0.);
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
-      for (unsigned int k = 0; k < bases[i].n(); ++k)
-        {
-          const double part = along(i, j, k) * forces(free_unknowns[i][j]);
-          sums[first[i] + k] += part;
-          sums[n_coordinates + first[i] + k] += std::abs(part);
-        }
+      {
+        const auto modes = motions_of(i, j, nullptr);
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          {
+            const double part = modes[k] * forces(free_unknowns[i][j]);
+            sums[first[i] + k] += part;
+            sums[n_coordinates + first[i] + k] += std::abs(part);
+          }
+      }
   dealii::Utilities::MPI::sum(sums, communicator, sums);
   Coordinates result(sums.begin(), sums.begin() + n_coordinates);
   for (unsigned int k = 0; k < n_coordinates; ++k)

@@ -2,7 +2,6 @@
 #include <scree/solver/line_search.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 
@@ -48,17 +47,15 @@ struct FreeBodies<dim>::Balance
   const Coordinates         &loads;
   const ContactHistory<dim> &history;
 
-  std::vector<std::vector<unsigned int>> coordinates_of_pair;
-  std::vector<std::size_t>               first_of_pair; // entry of the pair's block
-  std::vector<unsigned int>              points;        // of contact, with a free body
-  std::vector<dealii::Tensor<1, dim>>    columns;       // of these points, by coordinates_of_pair
-  Coordinates                            mass;          // M
-  std::size_t                            n_entries = 0; // of all blocks
+  std::vector<std::size_t>            first_of_pair; // entry of the pair's block
+  std::vector<unsigned int>           points;        // of contact, with a free body
+  std::vector<dealii::Tensor<1, dim>> columns;       // of these points, by coordinates
+  Coordinates                         mass;          // M
+  std::size_t                         n_entries = 0; // of all blocks
 
-  Coordinates             forces; // F
-  std::vector<double>     acting; // on each free body
-  std::vector<double>     blocks; // K, by pairs
-  dealii::SparsityPattern pattern;
+  Coordinates         forces; // F
+  std::vector<double> acting; // on each free body
+  std::vector<double> blocks; // K, by pairs
 };
 
 template <int dim>
@@ -67,30 +64,18 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
     : free(free)
     , loads(loads)
     , history(history)
-    , coordinates_of_pair(free.contact.pairs().size())
 {
-  const auto                    &contact = free.contact;
-  dealii::DynamicSparsityPattern couplings(free.n_coordinates, free.n_coordinates);
-  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+  const auto &contact = free.contact;
+  for (const auto &coordinates : free.coordinates_of_pair)
     {
-      auto &coordinates = coordinates_of_pair[p];
-      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
-        if (const unsigned int i = free.number_of[body]; i != none)
-          for (unsigned int k = 0; k < free.bases[i].n(); ++k)
-            coordinates.push_back(free.first[i] + k);
       first_of_pair.push_back(n_entries);
       n_entries += coordinates.size() * coordinates.size();
-      for (const unsigned int k : coordinates)
-        couplings.add_entries(k, coordinates.begin(), coordinates.end());
     }
-  for (unsigned int k = 0; k < free.n_coordinates; ++k)
-    couplings.add(k, k);
-  pattern.copy_from(couplings);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       const ContactPoint<dim> &point = contact.points()[i];
       const ContactPair       &pair  = contact.pairs()[point.pair];
-      if (coordinates_of_pair[point.pair].empty() || pair.law.law == ContactLaw::none)
+      if (free.coordinates_of_pair[point.pair].empty() || pair.law.law == ContactLaw::none)
         continue;
       points.push_back(i);
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
@@ -100,13 +85,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
             if (free.turns_finitely)
               x += contact.mean_displacements()[i] + 0.5 * sign * contact.jumps()[i];
             for (unsigned int k = 0; k < free.bases[number].n(); ++k)
-              {
-                dealii::Tensor<1, dim> column;
-                for (unsigned int m = 0; m < Motions::n_motions; ++m)
-                  column
-                    += sign * free.bases[number](m, k) * free.rigid_motions[number].motion(m, x);
-                columns.push_back(column);
-              }
+              columns.push_back(sign * free.motion(number, k, x));
           }
     }
   std::vector<double> load;
@@ -131,7 +110,7 @@ FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
     {
       const ContactPoint<dim> &point       = contact.points()[i];
       const ContactPair       &pair        = contact.pairs()[point.pair];
-      const auto              &coordinates = coordinates_of_pair[point.pair];
+      const auto              &coordinates = free.coordinates_of_pair[point.pair];
       auto                     jump        = contact.jumps()[i];
       for (unsigned int k = 0; k < coordinates.size(); ++k)
         jump += q[coordinates[k]] * column[k];
@@ -188,12 +167,15 @@ template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::Balance::direction(const double length, const double damping) const
 {
-  dealii::SparseMatrix<double> stiffness(pattern), damped(pattern);
-  for (unsigned int p = 0; p < coordinates_of_pair.size(); ++p)
-    for (unsigned int k = 0; k < coordinates_of_pair[p].size(); ++k)
-      for (unsigned int l = 0; l < coordinates_of_pair[p].size(); ++l)
-        stiffness.add(coordinates_of_pair[p][k], coordinates_of_pair[p][l],
-                      blocks[first_of_pair[p] + k * coordinates_of_pair[p].size() + l]);
+  dealii::SparseMatrix<double> stiffness(free.couplings), damped(free.couplings);
+  for (unsigned int p = 0; p < first_of_pair.size(); ++p)
+    {
+      const auto &coordinates = free.coordinates_of_pair[p];
+      for (unsigned int k = 0; k < coordinates.size(); ++k)
+        for (unsigned int l = 0; l < coordinates.size(); ++l)
+          stiffness.add(coordinates[k], coordinates[l],
+                        blocks[first_of_pair[p] + k * coordinates.size() + l]);
+    }
   // Alone, M would allow `length` with this s.
   double alone = 0., stiffest = 0.;
   for (unsigned int k = 0; k < mass.size(); ++k)

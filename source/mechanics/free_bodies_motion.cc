@@ -10,7 +10,7 @@ namespace scree
 {
 template <int dim>
 std::array<double, FreeBodies<dim>::Motions::n_motions>
-FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const Vector &u) const
+FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const Vector *u) const
 {
   std::array<double, Motions::n_motions> result    = {};
   const unsigned int                     component = free_components[i][j];
@@ -19,21 +19,17 @@ FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const Ve
   if (!is_rigid)
     {
       x = positions[i][j];
-      for (unsigned int d = 0; d < dim && turns_finitely; ++d)
-        x[d] += u(free_unknowns[i][j] - component + d);
+      for (unsigned int d = 0; d < dim && turns_finitely && u; ++d)
+        x[d] += (*u)(free_unknowns[i][j] - component + d);
     }
   for (unsigned int k = 0; k < bases[i].n(); ++k)
-    if (is_rigid)
-      result[k] = bases[i](component, k);
-    else
-      for (unsigned int m = 0; m < Motions::n_motions; ++m)
-        result[k] += bases[i](m, k) * rigid_motions[i].motion(m, x)[component];
+    result[k] = is_rigid ? bases[i](component, k) : motion(i, k, x)[component];
   return result;
 }
 
 template <int dim>
 std::vector<dealii::FullMatrix<double>>
-FreeBodies<dim>::inverse_masses(const Vector &mass, const Vector &u) const
+FreeBodies<dim>::inverse_masses(const Vector &mass, const Vector *u) const
 {
   constexpr unsigned int n = Motions::n_motions;
   std::vector<double>    sums(free_motions.size() * n * n, 0.);
@@ -74,14 +70,14 @@ FreeBodies<dim>::times(const std::vector<dealii::FullMatrix<double>> &matrices,
 
 template <int dim>
 void
-FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const Vector &at,
+FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const Vector *u,
                            const Vector *mass, Vector &result) const
 {
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
         const DofIndex unknown = free_unknowns[i][j];
-        const auto     modes   = motions_of(i, j, at);
+        const auto     modes   = motions_of(i, j, u);
         const double   sum     = std::inner_product(modes.begin(), modes.begin() + bases[i].n(),
                                                     motion.begin() + first[i], 0.);
         result(unknown) += factor * (mass ? (*mass)(unknown) : 1.) * sum;
@@ -137,32 +133,26 @@ template <int dim>
 void
 FreeBodies<dim>::subtract(const Coordinates &forces, const Vector &mass, Vector &r) const
 {
-  const Vector start(r.locally_owned_elements(), communicator); // u = 0
-  add_small(-1., times(inverse_masses(mass, start), forces), start, &mass, r);
+  add_small(-1., times(inverse_masses(mass, nullptr), forces), nullptr, &mass, r);
 }
 
 template <int dim>
 void
 FreeBodies<dim>::advance(const Vector &du, const Vector &mass, Vector &u) const
 {
-  if (!turns_finitely || free_motions.empty())
-    {
-      u += du;
-      return;
-    }
   Coordinates forces(n_coordinates, 0.); // R^T M du
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
-        const auto modes = motions_of(i, j, u);
+        const auto modes = motions_of(i, j, &u);
         for (unsigned int k = 0; k < bases[i].n(); ++k)
           forces[first[i] + k] += mass(free_unknowns[i][j]) * modes[k] * du(free_unknowns[i][j]);
       }
   dealii::Utilities::MPI::sum(forces, communicator, forces);
-  const Coordinates q = times(inverse_masses(mass, u), forces);
+  const Coordinates q = times(inverse_masses(mass, &u), forces);
   const Vector      start(u);
   u += du;
-  add_small(-1., q, start, nullptr, u);
+  add_small(-1., q, &start, nullptr, u);
   add(q, u);
 }
 

@@ -175,7 +175,10 @@ StepStart<dim>::find_volume_changes(const CutQuadrature<dim> &quadrature)
       places.clear();
       for (unsigned int q = 0; q < n; ++q)
         places.push_back({a, points[q]});
-      const auto                     gradients = deformation_gradients(places);
+      std::optional<PointWeights> of_cloud;
+      if (gradients_are_of_cloud())
+        of_cloud = this->weights(places);
+      const auto                     gradients = deformation_gradients(places, of_cloud);
       std::vector<VolumeChange<dim>> changes;
       weights.assign(volumes, volumes + n);
       for (unsigned int q = 0; q < n; ++q)
@@ -341,10 +344,11 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
 
 template <int dim>
 std::vector<dealii::Tensor<2, dim>>
-StepStart<dim>::deformation_gradients(const std::vector<PointInCell<dim>> &points) const
+StepStart<dim>::deformation_gradients(const std::vector<PointInCell<dim>> &points,
+                                      const std::optional<PointWeights>   &of_cloud) const
 {
-  if (parameters.deformation == DeformationTransfer::moving_least_squares)
-    return weights(points).values(cloud.deformation_gradient);
+  if (gradients_are_of_cloud())
+    return of_cloud->values(cloud.deformation_gradient);
   std::vector<dealii::Tensor<2, dim>> result;
   result.reserve(points.size());
   for (const auto &point : points)
@@ -357,7 +361,10 @@ std::vector<PointHistory<dim>>
 StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
 {
   std::vector<PointHistory<dim>> result(points.size());
-  const auto                     gradients = deformation_gradients(points);
+  std::optional<PointWeights>    of_cloud;
+  if (gradients_are_of_cloud() || cloud.n_internal() > 0)
+    of_cloud = weights(points);
+  const auto gradients = deformation_gradients(points, of_cloud);
   for (std::size_t i = 0; i < points.size(); ++i)
     {
       result[i].deformation_gradient = gradients[i];
@@ -365,7 +372,7 @@ StepStart<dim>::histories(const std::vector<PointInCell<dim>> &points) const
     }
   if (cloud.n_internal() > 0)
     {
-      const auto internal = weights(points).values(cloud.internal, n_internal);
+      const auto internal = of_cloud->values(cloud.internal, n_internal);
       for (std::size_t i = 0; i < points.size(); ++i)
         set_internal(points[i], &internal[i * n_internal], result[i]);
     }

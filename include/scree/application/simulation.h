@@ -160,14 +160,14 @@ private:
    * is prescribed at t = 0 already, the first step resolves the overlap.
    */
   void resolve_overlap();
+  /** One part of it, which leaves the overlaps of the pairs times `left`. */
+  bool resolve_part(const std::vector<double> &overlaps, const double left);
   /**
    * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
    * until contact holds them, by half a cell at a time: before the first step, and where a step
    * fails. What that releases is Energies::transfer.
    */
   void settle();
-  /** One part of it, which leaves the overlaps of the pairs times `left`. */
-  bool resolve_part(const std::vector<double> &overlaps, const double left);
   /** Whether the geometry has moved or a step was accepted. */
   bool has_started() const
   {

@@ -5,7 +5,8 @@
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 
-#include <functional>
+#include <deal.II/lac/sparsity_pattern.h>
+
 #include <string>
 #include <vector>
 
@@ -126,8 +127,8 @@ public:
   void add(const Coordinates &motion, Vector &u) const;
 
   /**
-   * Adds du to u; on a moving geometry its rigid part, nearest in the norm of the diagonal mass, as
-   * a finite motion: bodies turn without strain.
+   * On a moving geometry, adds du to u, its rigid part, nearest in the norm of the diagonal mass,
+   * as a finite motion: bodies turn without strain.
    */
   void advance(const Vector &du, const Vector &mass, Vector &u) const;
 
@@ -153,20 +154,23 @@ private:
   std::vector<dealii::FullMatrix<double>>
        resistance_of_supports(const std::vector<Motions> &motions) const;
   void find_unknowns(const Fields<dim> &fields);
-  /** What coordinate k of a free body does to its unknown j. */
-  double along(const unsigned int free_body, const unsigned int j, const unsigned int k) const;
+  void find_couplings();
+  /** What coordinate k of a free body does to a position. */
+  dealii::Tensor<1, dim> motion(const unsigned int free_body, const unsigned int k,
+                                const dealii::Point<dim> &x) const;
   /** Part of what acts on a free body that may be out of balance: contact acts at points. */
   double tolerance(const unsigned int free_body) const;
-  /** What the coordinates of a free body do to its unknown j, from where u has brought it. */
+  /** What the coordinates of a free body do to its unknown j, from where u has brought it; null:
+   * from the start of the step. */
   std::array<double, Motions::n_motions> motions_of(const unsigned int free_body,
-                                                    const unsigned int j, const Vector &u) const;
-  /** (R^T M R)^-1 of each free body, R its motions from where u has brought it (collective). */
-  std::vector<dealii::FullMatrix<double>> inverse_masses(const Vector &mass, const Vector &u) const;
+                                                    const unsigned int j, const Vector *u) const;
+  /** (R^T M R)^-1 of each free body, R its motions_of() (collective). */
+  std::vector<dealii::FullMatrix<double>> inverse_masses(const Vector &mass, const Vector *u) const;
   /** Body by body. */
   Coordinates times(const std::vector<dealii::FullMatrix<double>> &matrices,
                     const Coordinates                             &coordinates) const;
-  /** result += factor M R motion, R the motions from `at` on, M = 1 if null. */
-  void add_small(const double factor, const Coordinates &motion, const Vector &at,
+  /** result += factor M R motion, R the motions_of(), M = 1 if null. */
+  void add_small(const double factor, const Coordinates &motion, const Vector *u,
                  const Vector *mass, Vector &result) const;
   /** Appends what the coordinates do to the relative motion at a contact point along `direction`.
    */
@@ -190,5 +194,7 @@ private:
   std::vector<std::vector<unsigned int>>       free_components; //!< of the displacement or pose
   std::vector<unsigned int>                    number_of; //!< of each body among the free ones
   unsigned int                                 n_coordinates = 0;
+  std::vector<std::vector<unsigned int>>       coordinates_of_pair; //!< of a, then of b
+  dealii::SparsityPattern                      couplings;           //!< of the coordinates by pairs
 };
 } // namespace scree

@@ -82,8 +82,14 @@ private:
   void require_admissible(const PointInCell<dim> &point, const dealii::Tensor<2, dim> &F) const;
   PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
   void         collect_neighbours();
+  /** F_n; `of_cloud` are the weights of these points, empty if F_n is not from the cloud. */
   std::vector<dealii::Tensor<2, dim>>
-  deformation_gradients(const std::vector<PointInCell<dim>> &points) const;
+       deformation_gradients(const std::vector<PointInCell<dim>> &points,
+                             const std::optional<PointWeights>   &of_cloud) const;
+  bool gradients_are_of_cloud() const
+  {
+    return parameters.deformation == DeformationTransfer::moving_least_squares;
+  }
   /** Projects the volume changes of F_n in the cells of bodies that may flow, as Bulk does. */
   void find_volume_changes(const CutQuadrature<dim> &quadrature);
   /** The F_n that the law of such a body sees. */
