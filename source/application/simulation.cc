@@ -189,9 +189,9 @@ Simulation<dim>::run()
   while (!step_control.finished())
     if (solve_step(step_control.next_time()))
       {
-        record.attempts       = attempts;
-        attempts              = 1;
-        holds_neutral_motions = false;
+        record.attempts = attempts;
+        attempts        = 1;
+        holds_moments   = false;
         step_control.accept(record.newton_iterations);
         write_results();
         report_step(wall.wall_time());
@@ -208,9 +208,9 @@ Simulation<dim>::run()
         require_equilibrium_exists();
         if (attempts == 2 && is_moving() && !equilibrium->free_bodies().empty())
           {
-            // A second time, after a fall and with neutral motions held.
+            // A second time, after a fall and with moments held.
             settle();
-            holds_neutral_motions = true;
+            holds_moments = true;
             continue;
           }
         require(step_control.reject(), "Time",

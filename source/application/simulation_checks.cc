@@ -14,7 +14,9 @@ namespace
 {
 /** Of the forces on a body: the imbalance that ends a run. */
 constexpr double largest_imbalance = 1e-3;
-/** Of the forces on a body: the imbalance on neutral motions that is told. */
+/** Of all forces: what rounding may leave on a body that carries hardly any. */
+constexpr double round_off = 1e-6;
+/** Of the forces on a body times half its size: the held moment that is told. */
 constexpr double told_imbalance = 1e-2;
 /** Of a stiffness times a motion: what is no force but rounding. */
 constexpr double no_force = 1e-11;
@@ -90,25 +92,25 @@ Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u)
       softest = std::min(softest, bodies[balance.body].material->young()
                                     * std::pow(balance.radius, dim - 2));
     }
-  const double tolerance = parameters.newton.relative_tolerance * equilibrium->force_scale();
+  const double scale     = equilibrium->force_scale();
+  const double tolerance = std::max(parameters.newton.relative_tolerance * scale,
+                                    std::min(equilibrium->round_off(), round_off * scale));
   for (const BodyBalance<dim> &balance : balances)
     {
       // Residuals of the nodes may all point the same way.
       const double allowed = largest_imbalance * balance.force_scale
-                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion
-                             + 2. * equilibrium->neutral_force(balance.body);
+                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion;
+      const double held = equilibrium->held_moment(balance.body);
       // On a moving geometry points are where they were at the start of the step.
       const double allowed_moment
-        = 2. * balance.radius * allowed
+        = 2. * balance.radius * (allowed + 2. * held)
           + (is_moving() ? 2. * balance.largest_u * balance.force_scale : 0.);
       const bool is_force = !(balance.force.norm() <= allowed);
-      if (equilibrium->neutral_force(balance.body) > told_imbalance * balance.force_scale
+      if (held > told_imbalance * balance.force_scale
           && warned_pairs.insert({balance.body, dealii::numbers::invalid_unsigned_int}).second)
-        log.line(
-          "Warning: contact at few points holds the body " + bodies[balance.body].name
-          + " in balance only to "
-          + short_number(100. * equilibrium->neutral_force(balance.body) / balance.force_scale)
-          + " % of what acts on it, on motions that no load drives; refine the grid there");
+        log.line("Warning: contact at few points holds the body " + bodies[balance.body].name
+                 + " against turning only to " + short_number(100. * held / balance.force_scale)
+                 + " % of what acts on it times half its size; refine the grid there");
       const bool has_moments
         = !is_moving()
           || balances_moments(

@@ -73,7 +73,7 @@ Simulation<dim>::solve_step(const double time)
   record                  = StepRecord();
   record.step             = step;
   record.time             = time;
-  equilibrium->set_neutral_held(holds_neutral_motions);
+  equilibrium->set_moments_held(holds_moments);
   auto               u      = first_guess(time);
   const NewtonResult result = solve_equilibrium(u);
   record.newton_iterations  = result.iterations;

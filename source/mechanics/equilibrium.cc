@@ -204,7 +204,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     if (fields.owned().is_element(line.index))
       r(line.index) = 0.;
   r.compress(dealii::VectorOperation::insert);
-  hold_neutral_motions(r);
+  hold_moments(r);
 }
 
 template <int dim>
@@ -256,9 +256,8 @@ Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
       matrix.add(index, index, mass_factor * artificial_mass(index));
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     for (const DofIndex unknown : free.unknowns(i))
-      if (neutral_forces[free_bodies()[i].body] != 0. && mass_factor < neutral_mass_factor)
-        matrix.add(unknown, unknown,
-                   (neutral_mass_factor - mass_factor) * artificial_mass(unknown));
+      if (held_moments[free_bodies()[i].body] != 0. && mass_factor < held_mass_factor)
+        matrix.add(unknown, unknown, (held_mass_factor - mass_factor) * artificial_mass(unknown));
   // Rows without any other entry.
   for (const DofIndex index : rigid.prescribed())
     matrix.add(index, index, largest_stiffness);
@@ -438,16 +437,16 @@ Equilibrium<dim>::is_linear_but_for_contact() const
 
 template <int dim>
 void
-Equilibrium<dim>::set_neutral_held(const bool is_held)
+Equilibrium<dim>::set_moments_held(const bool is_held)
 {
-  is_neutral_held = is_held;
+  are_moments_held = is_held;
 }
 
 template <int dim>
 double
-Equilibrium<dim>::neutral_force(const unsigned int body) const
+Equilibrium<dim>::held_moment(const unsigned int body) const
 {
-  return neutral_forces[body];
+  return held_moments[body];
 }
 
 template <int dim>

@@ -83,17 +83,17 @@ Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &hi
 
 template <int dim>
 void
-Equilibrium<dim>::hold_neutral_motions(Vector &r)
+Equilibrium<dim>::hold_moments(Vector &r)
 {
-  neutral_forces.assign(bodies.size(), 0.);
-  if (!is_neutral_held || is_linear_but_for_contact() || free_bodies().empty())
+  held_moments.assign(bodies.size(), 0.);
+  if (!are_moments_held || is_linear_but_for_contact() || free_bodies().empty())
     return;
-  const auto forces = free.neutral_part(free.resultants(r), loads_on_free_bodies());
-  if (forces.empty())
+  const auto moments = free.misplaced_moments(free.resultants(r));
+  if (moments.empty())
     return;
-  free.subtract(forces, artificial_mass, r);
+  free.subtract(moments, artificial_mass, r);
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
-    neutral_forces[free_bodies()[i].body] = free.magnitude(forces, i);
+    held_moments[free_bodies()[i].body] = free.magnitude(moments, i);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                            \
@@ -105,8 +105,8 @@ Equilibrium<dim>::hold_neutral_motions(Vector &r)
   template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                 \
     Vector &, const ContactHistory<dim> &, const bool) const;
 
-template void Equilibrium<2>::hold_neutral_motions(Vector &);
-template void Equilibrium<3>::hold_neutral_motions(Vector &);
+template void Equilibrium<2>::hold_moments(Vector &);
+template void Equilibrium<3>::hold_moments(Vector &);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 } // namespace scree

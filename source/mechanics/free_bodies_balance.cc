@@ -146,9 +146,11 @@ template <int dim>
 bool
 FreeBodies<dim>::Balance::is_balanced() const
 {
+  const Coordinates moments = free.rotations(forces);
   for (unsigned int i = 0; i < acting.size(); ++i)
-    for (unsigned int k = 0; k < free.bases[i].n(); ++k)
-      if (std::abs(forces[free.first[i] + k]) > free.tolerance(i) * acting[i])
+    for (unsigned int k = free.first[i]; k < free.first[i] + free.bases[i].n(); ++k)
+      if (std::abs(forces[k] - moments[k]) > balanced * acting[i]
+          || std::abs(moments[k]) > free.tolerance(i) * acting[i])
         return false;
   return true;
 }

@@ -1,6 +1,7 @@
 #include <scree/mechanics/free_bodies.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <cmath>
 #include <numeric>
@@ -87,46 +88,79 @@ FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const
 
 template <int dim>
 typename FreeBodies<dim>::Coordinates
-FreeBodies<dim>::neutral_part(const Coordinates &forces, const Coordinates &loads) const
+FreeBodies<dim>::rotations(const Coordinates &motion) const
 {
-  constexpr double no_work = 1e-3;
-  const auto       product = [](const Coordinates &a, const Coordinates &b) {
+  Coordinates result(n_coordinates, 0.);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (unsigned int m = dim; m < Motions::n_motions; ++m)
+      {
+        double turn = 0.;
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          turn += bases[i](m, k) * motion[first[i] + k];
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          result[first[i] + k] += bases[i](m, k) * turn;
+      }
+  return result;
+}
+
+template <int dim>
+std::vector<double>
+FreeBodies<dim>::contact_on_bodies() const
+{
+  std::vector<double> result(free_motions.size(), 0.);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      const double force = point.weight * contact.responses()[i].traction(point.normal).norm();
+      for (const unsigned int body : {contact.pairs()[point.pair].a, contact.pairs()[point.pair].b})
+        if (number_of[body] != none)
+          result[number_of[body]] += force;
+    }
+  dealii::Utilities::MPI::sum(result, communicator, result);
+  return result;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::misplaced_moments(const Coordinates &forces) const
+{
+  constexpr double smallest_turn = 1e-2; // part of a motion
+  const auto       product       = [](const Coordinates &a, const Coordinates &b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
   };
   double coarsest = 0.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     coarsest = std::max(coarsest, tolerance(i));
-  const auto  motions = not_resisted(4. * coarsest * coarsest);
-  Coordinates weak(n_coordinates, 0.), driven(n_coordinates, 0.); // parts of forces and loads
-  for (const Coordinates &motion : motions)
-    for (unsigned int k = 0; k < n_coordinates; ++k)
-      {
-        weak[k] += product(motion, forces) * motion[k];
-        driven[k] += product(motion, loads) * motion[k];
-      }
-  if (const double square = product(driven, driven);
-      std::sqrt(square) > no_work * std::sqrt(product(loads, loads)))
-    {
-      const double along = product(driven, weak) / square;
-      for (unsigned int k = 0; k < n_coordinates; ++k)
-        weak[k] -= along * driven[k];
-    }
-  const double size = std::sqrt(product(weak, weak));
-  if (size == 0.)
+  const auto         motions = not_resisted(4. * coarsest * coarsest);
+  const unsigned int n       = motions.size();
+  if (n == 0)
     return {};
-  std::vector<double> acting(free_motions.size(), 0.);
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    for (const unsigned int body :
-         {contact.pairs()[contact.points()[i].pair].a, contact.pairs()[contact.points()[i].pair].b})
-      if (number_of[body] != none)
-        acting[number_of[body]]
-          += contact.points()[i].weight
-             * contact.responses()[i].traction(contact.points()[i].normal).norm();
-  dealii::Utilities::MPI::sum(acting, communicator, acting);
-  double allowed = 0.;
+  // M = P Z (Z^T P Z)^+ Z^T F
+  std::vector<Coordinates>         turns;
+  dealii::LAPACKFullMatrix<double> matrix(n, n);
+  dealii::Vector<double>           part(n), factors(n);
+  for (const Coordinates &motion : motions)
+    turns.push_back(rotations(motion));
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      part[i] = product(motions[i], forces);
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) = product(motions[i], turns[j]);
+    }
+  matrix.compute_inverse_svd(smallest_turn);
+  matrix.vmult(factors, part);
+  Coordinates moments(n_coordinates, 0.);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int k = 0; k < n_coordinates; ++k)
+      moments[k] += factors[i] * turns[i][k];
+  const std::vector<double> contact_forces = contact_on_bodies();
+  double                    scale          = 1.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
-    allowed = std::hypot(allowed, magnitude(weak, i) / size * 2. * tolerance(i) * acting[i]);
-  return size > allowed ? Coordinates() : weak;
+    if (const double moment = magnitude(moments, i); moment > 0.)
+      scale = std::min(scale, tolerance(i) * contact_forces[i] / moment);
+  for (double &moment : moments)
+    moment *= scale;
+  return moments;
 }
 
 template <int dim>
@@ -191,8 +225,8 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                   \
-  template std::vector<double> FreeBodies<dim>::neutral_part(const std::vector<double> &,        \
-                                                             const std::vector<double> &) const; \
+  template std::vector<double> FreeBodies<dim>::misplaced_moments(const std::vector<double> &)   \
+    const;                                                                                       \
   template void FreeBodies<dim>::subtract(const std::vector<double> &, const Vector &, Vector &) \
     const;                                                                                       \
   template void FreeBodies<dim>::advance(const Vector &, const Vector &, Vector &) const;        \

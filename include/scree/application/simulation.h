@@ -238,7 +238,7 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
-  bool holds_neutral_motions = false; //!< in the step being solved, which failed before
+  bool holds_moments = false; //!< in the step being solved, which failed before
   std::set<std::pair<unsigned int, unsigned int>>
     warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
                   //!< (b, a) with b > a: under-resolved

@@ -33,8 +33,8 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  /** Of bodies with neutral motions, see FreeBodies::neutral_part(). */
-  static constexpr double neutral_mass_factor = 1e-3;
+  /** Of bodies whose moments are held, see FreeBodies::misplaced_moments(). */
+  static constexpr double held_mass_factor = 1e-3;
 
   Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
@@ -134,11 +134,11 @@ public:
 
   bool has_free_rigid_bodies() const;
 
-  /** Whether residual() leaves out forces on neutral motions, see FreeBodies::neutral_part(). */
-  void set_neutral_held(const bool is_held);
+  /** Whether residual() leaves out FreeBodies::misplaced_moments(). */
+  void set_moments_held(const bool is_held);
 
-  /** What of the forces on a body residual() left out [force]. */
-  double neutral_force(const unsigned int body) const;
+  /** Moment on a body that residual() left out, over half the size of the body [force]. */
+  double held_moment(const unsigned int body) const;
 
   /** Whether tangents change by contact alone. */
   bool is_linear_but_for_contact() const;
@@ -173,8 +173,8 @@ private:
   void                                  set_up_matrices();
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
-  /** Takes forces on neutral motions out of r, see FreeBodies::neutral_part(). */
-  void         hold_neutral_motions(Vector &r);
+  /** Takes FreeBodies::misplaced_moments() out of r. */
+  void         hold_moments(Vector &r);
   void         set_zero_on_prescribed(Vector &r) const;
   void         add_artificial_mass(Matrix &matrix) const;
   void         eliminate_prescribed(Matrix &matrix) const;
@@ -216,14 +216,14 @@ private:
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
   dealii::IndexSet    ghosted_dofs;
-  double              time            = 0.;
-  double              accepted_time   = 0.;
-  bool                is_unloaded     = true; //!< nothing was prescribed at the accepted state
-  bool                is_driven       = true; //!< forces act on rigid bodies
-  double              start_time      = 0.;   //!< of the step on a moving geometry
-  double              mass_factor     = default_mass_factor;
-  bool                is_neutral_held = false;
-  std::vector<double> neutral_forces;                    //!< of the last residual(), by body
+  double              time             = 0.;
+  double              accepted_time    = 0.;
+  bool                is_unloaded      = true; //!< nothing was prescribed at the accepted state
+  bool                is_driven        = true; //!< forces act on rigid bodies
+  double              start_time       = 0.;   //!< of the step on a moving geometry
+  double              mass_factor      = default_mass_factor;
+  bool                are_moments_held = false;
+  std::vector<double> held_moments;                      //!< of the last residual(), by body
   double              largest_stiffness = 0.;            //!< largest diagonal entry of A
   Vector              diagonal;                          //!< of A
   Vector              scratch;                           //!< for one function at a time

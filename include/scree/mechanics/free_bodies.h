@@ -68,13 +68,13 @@ public:
   std::vector<Coordinates> not_resisted(const double negligible = 1e-6) const;
 
   /**
-   * What of the forces on the coordinates acts on neutral motions, on which loads do no work and
-   * which contact resists only because it acts at points, up to half a spacing beside where it
-   * should: the spin of a disc without friction. Motions that the contact of the last evaluation
-   * resists by less than (h/2L)^2 of the trace, L half the size of the body; empty if the forces
-   * exceed h/2L of what acts on the bodies (collective).
+   * Moments M on the free bodies that balance what forces do on motions that the contact of the
+   * last evaluation resists only because it acts at points: Z^T M = Z^T F, Z the motions that it
+   * resists by less than (h/2L)^2 of the trace, L half the size of the body. Contact points are
+   * up to half a spacing beside where contact should act, so that M of a body is at most h/4 times
+   * the sum of the contact forces on it; larger ones are scaled down together (collective).
    */
-  Coordinates neutral_part(const Coordinates &forces, const Coordinates &loads) const;
+  Coordinates misplaced_moments(const Coordinates &forces) const;
 
   /** Length of what acts on a free body. */
   double magnitude(const Coordinates &forces, const unsigned int free_body) const;
@@ -111,7 +111,7 @@ public:
    * tractions t of the laws and the columns c_ik = d[[u]]_i/dq_k. Newton's method with steps of at
    * most a cell, (K + s M) dq = F with s as small as that allows and M the loads |f_b|, and a
    * search along dq for a zero of F . dq. Empty: every body is in balance to 1e-3 of what acts on
-   * it, or nothing better was found (collective).
+   * it (moments to what misplaced_moments() may hold), or nothing better was found (collective).
    *
    * @param loads resultants f of all forces but those of contact
    * @param is_settling on a moving geometry: s may become small, so that weakly resisted motions
@@ -158,6 +158,10 @@ private:
   /** What coordinate k of a free body does to a position. */
   dealii::Tensor<1, dim> motion(const unsigned int free_body, const unsigned int k,
                                 const dealii::Point<dim> &x) const;
+  /** P q: the rotations in a motion. */
+  Coordinates rotations(const Coordinates &motion) const;
+  /** Sums of the lengths of contact forces on the free bodies (collective). */
+  std::vector<double> contact_on_bodies() const;
   /** Part of what acts on a free body that may be out of balance: contact acts at points. */
   double tolerance(const unsigned int free_body) const;
   /** What the coordinates of a free body do to its unknown j, from where u has brought it; null:
