@@ -187,46 +187,49 @@ Simulation<dim>::run()
   if (step_control.n_accepted() == 0)
     settle();
   while (!step_control.finished())
-    if (solve_step(step_control.next_time()))
-      {
-        record.attempts = attempts;
-        attempts        = 1;
-        holds_moments   = false;
-        step_control.accept(record.newton_iterations);
-        write_results();
-        report_step(wall.wall_time());
-        report_under_resolved();
-        if (is_moving())
-          move_geometry();
-        results->write_history();
-        save_if_due();
-        end_if_interrupted();
-      }
-    else
-      {
-        ++attempts;
+    {
+      const Attempt attempt = solve_step(step_control.next_time());
+      if (attempt == Attempt::solved)
+        {
+          record.attempts = attempts;
+          attempts        = 1;
+          holds_moments   = false;
+          step_control.accept(record.newton_iterations);
+          write_results();
+          report_step(wall.wall_time());
+          report_under_resolved();
+          if (is_moving())
+            move_geometry();
+          results->write_history();
+          save_if_due();
+          end_if_interrupted();
+          continue;
+        }
+      ++attempts;
+      if (attempt == Attempt::failed)
         require_equilibrium_exists();
-        if (attempts == 2 && is_moving() && !equilibrium->free_bodies().empty())
-          {
-            // A second time, after a fall and with moments held.
-            settle();
-            holds_moments = true;
-            continue;
-          }
-        require(step_control.reject(), "Time",
-                "the load step to time " + short_number(record.time)
-                  + " was not solved, not even with the smallest step",
-                "see the reasons above; use more steps, a smaller tangential penalty factor, or "
-                "support the bodies that are not held");
-        log.line("  the step is tried again with "
-                 + short_number(100. * step_control.step_fraction()) + "% of its length");
-        if (is_moving())
-          {
-            // Contact points expect the slip of the step.
-            set_up_equilibrium();
-            start_step();
-          }
-      }
+      if (attempt == Attempt::failed && !holds_moments && is_moving()
+          && !equilibrium->free_bodies().empty())
+        {
+          // A second time, after a fall and with moments held.
+          settle();
+          holds_moments = true;
+          continue;
+        }
+      require(step_control.reject(), "Time",
+              "the load step to time " + short_number(record.time)
+                + " was not solved, not even with the smallest step",
+              "see the reasons above; use more steps, a smaller tangential penalty factor, or "
+              "support the bodies that are not held");
+      log.line("  the step is tried again with " + short_number(100. * step_control.step_fraction())
+               + "% of its length");
+      if (is_moving())
+        {
+          // Contact points expect the slip of the step.
+          set_up_equilibrium();
+          start_step();
+        }
+    }
   report_end(wall.wall_time());
 }
 

@@ -66,7 +66,7 @@ Simulation<dim>::first_guess(const double time)
 }
 
 template <int dim>
-bool
+typename Simulation<dim>::Attempt
 Simulation<dim>::solve_step(const double time)
 {
   const unsigned int step = step_control.n_accepted() + 1;
@@ -81,7 +81,7 @@ Simulation<dim>::solve_step(const double time)
   if (!result.converged())
     {
       explain_failure(result);
-      return false;
+      return Attempt::failed;
     }
   tell_what_is_loose();
   if (is_moving())
@@ -93,7 +93,7 @@ Simulation<dim>::solve_step(const double time)
         {
           log.line("Step " + std::to_string(step) + " to time " + short_number(time)
                    + " is too large: " + reason);
-          return false;
+          return Attempt::too_large;
         }
     }
   const auto balances = require_balance(u);
@@ -106,7 +106,7 @@ Simulation<dim>::solve_step(const double time)
       state.displacement  = u;
       state.contact       = contact->current_history();
       state.time          = time;
-      return true;
+      return Attempt::solved;
     }
   for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
                                                   equilibrium->largest_displacements(u)))
@@ -124,7 +124,7 @@ Simulation<dim>::solve_step(const double time)
   for (unsigned int i = 0; i < was_closed.size(); ++i)
     if (contact->responses()[i].pressure != 0.)
       was_closed[i] = true;
-  return true;
+  return Attempt::solved;
 }
 
 template <int dim>
@@ -401,9 +401,9 @@ Simulation<dim>::require_equilibrium_exists()
   template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
   template void Simulation<dim>::settle();                                                         \
   template void Simulation<dim>::resolve_overlap();                                                \
-  template bool Simulation<dim>::solve_step(const double);                                         \
-  template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \
-    const LinearSolver::Vector &, const double, LinearSolver::Vector &);                           \
+  template typename Simulation<dim>::Attempt Simulation<dim>::solve_step(const double);            \
+  template LinearSolveResult                 Simulation<dim>::solve_linear_system(                 \
+                    const LinearSolver::Vector &, const double, LinearSolver::Vector &);           \
   template void         Simulation<dim>::require_no_slide() const;                                 \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \

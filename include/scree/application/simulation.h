@@ -152,7 +152,13 @@ private:
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   typename Equilibrium<dim>::Vector extrapolated(const double time) const;
-  bool                              solve_step(const double time);
+  enum class Attempt
+  {
+    solved,
+    too_large,
+    failed
+  };
+  Attempt solve_step(const double time);
   /**
    * Before the first step bodies that overlap find their equilibrium without friction and without
    * loads, on a moving geometry in parts: then nothing has slipped yet, friction begins with tau =
