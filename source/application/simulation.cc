@@ -188,8 +188,7 @@ Simulation<dim>::run()
     settle();
   while (!step_control.finished())
     {
-      const Attempt attempt = solve_step(step_control.next_time());
-      if (attempt == Attempt::solved)
+      if (solve_step(step_control.next_time()))
         {
           record.attempts = attempts;
           attempts        = 1;
@@ -206,10 +205,9 @@ Simulation<dim>::run()
           continue;
         }
       ++attempts;
-      if (attempt == Attempt::failed)
+      if (!is_too_large)
         require_equilibrium_exists();
-      if (attempt == Attempt::failed && !holds_moments && is_moving()
-          && !equilibrium->free_bodies().empty())
+      if (!is_too_large && !holds_moments && is_moving() && !equilibrium->free_bodies().empty())
         {
           // A second time, after a fall and with moments held.
           settle();

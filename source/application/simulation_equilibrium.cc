@@ -66,13 +66,14 @@ Simulation<dim>::first_guess(const double time)
 }
 
 template <int dim>
-typename Simulation<dim>::Attempt
+bool
 Simulation<dim>::solve_step(const double time)
 {
   const unsigned int step = step_control.n_accepted() + 1;
   record                  = StepRecord();
   record.step             = step;
   record.time             = time;
+  is_too_large            = false;
   equilibrium->set_moments_held(holds_moments);
   auto               u      = first_guess(time);
   const NewtonResult result = solve_equilibrium(u);
@@ -81,7 +82,7 @@ Simulation<dim>::solve_step(const double time)
   if (!result.converged())
     {
       explain_failure(result);
-      return Attempt::failed;
+      return false;
     }
   tell_what_is_loose();
   if (is_moving())
@@ -93,7 +94,8 @@ Simulation<dim>::solve_step(const double time)
         {
           log.line("Step " + std::to_string(step) + " to time " + short_number(time)
                    + " is too large: " + reason);
-          return Attempt::too_large;
+          is_too_large = true;
+          return false;
         }
     }
   const auto balances = require_balance(u);
@@ -106,7 +108,7 @@ Simulation<dim>::solve_step(const double time)
       state.displacement  = u;
       state.contact       = contact->current_history();
       state.time          = time;
-      return Attempt::solved;
+      return true;
     }
   for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
                                                   equilibrium->largest_displacements(u)))
@@ -124,7 +126,7 @@ Simulation<dim>::solve_step(const double time)
   for (unsigned int i = 0; i < was_closed.size(); ++i)
     if (contact->responses()[i].pressure != 0.)
       was_closed[i] = true;
-  return Attempt::solved;
+  return true;
 }
 
 template <int dim>
@@ -401,9 +403,9 @@ Simulation<dim>::require_equilibrium_exists()
   template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
   template void Simulation<dim>::settle();                                                         \
   template void Simulation<dim>::resolve_overlap();                                                \
-  template typename Simulation<dim>::Attempt Simulation<dim>::solve_step(const double);            \
-  template LinearSolveResult                 Simulation<dim>::solve_linear_system(                 \
-                    const LinearSolver::Vector &, const double, LinearSolver::Vector &);           \
+  template bool Simulation<dim>::solve_step(const double);                                         \
+  template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \
+    const LinearSolver::Vector &, const double, LinearSolver::Vector &);                           \
   template void         Simulation<dim>::require_no_slide() const;                                 \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \

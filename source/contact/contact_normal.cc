@@ -1,4 +1,5 @@
 #include <scree/contact/contact_normal.h>
+#include <scree/contact/surface_fit.h>
 
 #include <algorithm>
 #include <array>
@@ -74,6 +75,20 @@ struct Side
   dealii::Tensor<1, dim> normal; //!< out of the body
   bool                   is_known = false, is_exact = false, is_kinked = false;
 };
+/** Whether a body has the same normal a cell beside x. */
+template <int dim>
+bool
+is_flat(const ExactDistances<dim> &distances, const unsigned int body, const dealii::Point<dim> &x,
+        const double size)
+{
+  constexpr double             same   = 1e-6;
+  const dealii::Tensor<1, dim> normal = distances.normal(body, x);
+  for (const auto &tangent : surface_tangents<dim>(normal))
+    for (const double side : {-size, size})
+      if ((distances.normal(body, x + side * tangent) - normal).norm() > same)
+        return false;
+  return true;
+}
 } // namespace
 
 template <int dim>
@@ -95,7 +110,10 @@ contact_normal(const ExactDistances<dim> &distances, const std::vector<Body<dim>
   const bool a_is_firm = of_a.is_exact && bodies[a].displacement.is_empty(),
              b_is_firm = of_b.is_exact && bodies[b].displacement.is_empty();
   if (a_is_firm != b_is_firm && !(a_is_firm ? of_a : of_b).is_kinked)
-    take(a_is_firm);
+    {
+      take(a_is_firm);
+      result.is_flat = is_flat(distances, a_is_firm ? a : b, x, size);
+    }
   else if (of_a.is_known && of_b.is_known)
     {
       const bool face_each_other = a_is_firm && b_is_firm && -(of_a.normal * of_b.normal) > facing;

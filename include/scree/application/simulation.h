@@ -152,13 +152,7 @@ private:
    */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   typename Equilibrium<dim>::Vector extrapolated(const double time) const;
-  enum class Attempt
-  {
-    solved,
-    too_large,
-    failed
-  };
-  Attempt solve_step(const double time);
+  bool                              solve_step(const double time);
   /**
    * Before the first step bodies that overlap find their equilibrium without friction and without
    * loads, on a moving geometry in parts: then nothing has slipped yet, friction begins with tau =
@@ -169,9 +163,8 @@ private:
   /** One part of it, which leaves the overlaps of the pairs times `left`. */
   bool resolve_part(const std::vector<double> &overlaps, const double left);
   /**
-   * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
-   * until contact holds them, by half a cell at a time: before the first step, and where a step
-   * fails. What that releases is Energies::transfer.
+   * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step, half
+   * a cell at a time, until contact holds them; the energy is that of transfer.
    */
   void settle();
   /** Whether the geometry has moved or a step was accepted. */
@@ -245,6 +238,7 @@ private:
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
   bool holds_moments = false; //!< in the step being solved, which failed before
+  bool is_too_large  = false; //!< the solution of the step, for the moving geometry
   std::set<std::pair<unsigned int, unsigned int>>
     warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
                   //!< (b, a) with b > a: under-resolved
