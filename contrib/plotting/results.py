@@ -170,7 +170,11 @@ class RunResults:
         return step
 
     def mesh(self, step):
-        return BodyMesh(self.body_files[step])
+        """The points of a moving geometry are written where they are at the end of the step."""
+        mesh = BodyMesh(self.body_files[step])
+        if self.parameters.get("Moving geometry/Update", "none") != "none":
+            mesh.points -= mesh.displacement[:, :mesh.points.shape[1]]
+        return mesh
 
     def contact(self, step):
         return read_table(self.contact_files[step][0])

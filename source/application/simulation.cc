@@ -104,8 +104,8 @@ Simulation<dim>::discretise()
                                is_moving() ? "history at quadrature points" : "quadrature");
     bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty,
                                        step_start.get());
-    boundary_terms
-      = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature, bodies, *bulk);
+    boundary_terms = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature,
+                                                          bodies, *bulk, state.time);
   }
   set_up_equilibrium();
 }

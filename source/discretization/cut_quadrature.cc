@@ -157,15 +157,34 @@ CutCellRules<dim>::face_rule(const double *scaled, const double cell_size, const
 
 namespace
 {
-/** Along the gradient, to first order; within half a cell. */
+/**
+ * From a point of the cut to the boundary along the gradient, to first order; within half a cell.
+ * Of the nearest piece if the shape has several: the interpolant is rough beside kinks.
+ */
 template <int dim>
 double
-distance_to_contour(const Lattice<dim> &level_set, const GridCell<dim> &cell,
+distance_to_contour(const Body<dim> &body, const GridCell<dim> &cell,
                     const dealii::Point<dim> &unit_point)
 {
-  const auto [phi, gradient]
-    = level_set.value_and_gradient(cell.lower + cell.size * dealii::Tensor<1, dim>(unit_point), 3);
-  const double distance = -phi / gradient.norm();
+  const dealii::Point<dim> x        = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_point);
+  double                   distance = 0.5 * cell.size;
+  const auto               take_nearer = [&](const std::pair<double, dealii::Tensor<1, dim>> &phi) {
+    const double found = -phi.first / phi.second.norm();
+    if (std::abs(found) < std::abs(distance))
+      distance = found;
+  };
+  std::vector<SmoothPiece<dim>> pieces;
+  if (body.shape && !body.shape->is_smooth())
+    {
+      const dealii::Point<dim> X = initial_position(body, x);
+      dealii::BoundingBox<dim> near({X, X});
+      near.extend(0.5 * cell.size);
+      body.shape->append_pieces(near, pieces);
+    }
+  for (const auto &piece : pieces)
+    take_nearer(value_and_gradient(body, piece, x));
+  if (pieces.empty())
+    take_nearer(body.level_set.value_and_gradient(x, 3));
   return std::abs(distance) < 0.5 * cell.size ? distance : 0.;
 }
 } // namespace
@@ -195,9 +214,8 @@ CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
       bulk.append(points.inside);
       surface.append(points.surface);
       for (const auto &point : points.surface.points)
-        strip_widths.push_back(cut.parts.empty()
-                                 ? distance_to_contour(bodies[cell.body].level_set, geometry, point)
-                                 : 0.);
+        strip_widths.push_back(
+          cut.parts.empty() ? distance_to_contour(bodies[cell.body], geometry, point) : 0.);
     }
 }
 

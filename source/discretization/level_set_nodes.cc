@@ -143,7 +143,7 @@ LevelSetNodes<dim>::initial_nodes(const unsigned int cell, const Body<dim> &body
   std::vector<dealii::Point<dim>> result;
   for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
     result.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(lagrange.node(i)));
-  if (body.displacement.is_empty())
+  if (!body.is_rigid() && body.displacement.is_empty())
     return result;
   for (auto &x : result)
     x = initial_position(body, x);

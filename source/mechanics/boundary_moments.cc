@@ -30,6 +30,27 @@ BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const uns
 
 template <int dim>
 void
+BoundaryTerms<dim>::forgive_flow(const double start_time)
+{
+  for (auto &region : boundary_regions)
+    {
+      const auto &condition = *region.condition;
+      if (condition.parameters.type != ConditionType::displacement
+          || condition.parameters.method == DisplacementMethod::penalty)
+        continue;
+      for (auto &point : region.points)
+        if (const double ratio = bulk.secant_ratio(point.active_cell); ratio < 1.)
+          for (unsigned int k = 0; k < condition.components.size(); ++k)
+            {
+              double &u_n = point.start_displacement[condition.components[k]];
+              u_n
+                += (1. - ratio) * (condition.value(k, point.reference_position, start_time) - u_n);
+            }
+    }
+}
+
+template <int dim>
+void
 BoundaryTerms<dim>::find_moments()
 {
   std::vector<dealii::Point<dim>> points;
@@ -176,6 +197,7 @@ BoundaryTerms<dim>::moment_traction(const BoundaryRegion<dim> &region, const uns
 
 #define SCREE_INSTANTIATE(dim)                                                      \
   template double BoundaryTerms<dim>::flow_ratio(const unsigned int) const;         \
+  template void   BoundaryTerms<dim>::forgive_flow(const double);                   \
   template double BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &,  \
                                                       const unsigned int) const;    \
   template void   BoundaryTerms<dim>::find_moments();                               \

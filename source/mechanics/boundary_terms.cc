@@ -23,7 +23,8 @@ template <int dim>
 BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const CutQuadrature<dim>     &quadrature,
-                                  const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk)
+                                  const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
+                                  const double start_time)
     : fields(fields)
     , bodies(bodies)
     , boundary_regions(
@@ -33,7 +34,10 @@ BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
 {
   find_moments();
   if (start)
-    find_starts();
+    {
+      forgive_flow(start_time);
+      find_starts();
+    }
 }
 
 template <int dim>

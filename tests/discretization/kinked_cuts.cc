@@ -22,6 +22,7 @@ struct Measure
 {
   double         volume = 0., surface = 0., flux = 0.; // flux: int x.n, dim times the volume
   Tensor<1, dim> normals;                              // int n: zero
+  double         strip = 0.;                           // between planes and their cuts: zero
 };
 
 template <int dim>
@@ -52,6 +53,7 @@ measure(const CutBodies<dim> &model)
           EXPECT_NEAR(normal.norm(), 1., 1e-12);
           result.surface += weight;
           result.normals += weight * normal;
+          result.strip += weight * std::abs(quadrature.strip_widths[q]);
           result.flux
             += weight
                * ((geometry.lower + geometry.size * Tensor<1, dim>(quadrature.surface.points[q]))
@@ -62,6 +64,7 @@ measure(const CutBodies<dim> &model)
   result.surface = Utilities::MPI::sum(result.surface, MPI_COMM_WORLD);
   result.flux    = Utilities::MPI::sum(result.flux, MPI_COMM_WORLD);
   result.normals = Utilities::MPI::sum(result.normals, MPI_COMM_WORLD);
+  result.strip   = Utilities::MPI::sum(result.strip, MPI_COMM_WORLD);
   return result;
 }
 
@@ -182,7 +185,8 @@ error_of(const Case &shape, const unsigned int degree, const unsigned int level,
   const Measure<dim> found = measure(model);
   return std::max({std::abs(found.volume / shape.volume - 1.),
                    std::abs(found.surface / shape.surface - 1.),
-                   std::abs(found.flux / (dim * shape.volume) - 1.), found.normals.norm()});
+                   std::abs(found.flux / (dim * shape.volume) - 1.), found.normals.norm(),
+                   found.strip / shape.volume});
 }
 
 const std::vector<double> offsets = {0., 1e-11, -3e-9, 1e-4, 0.0371};

@@ -1,6 +1,7 @@
 // Level sets on grids with hanging nodes: continuous over all faces, contours closed.
 #include <gtest/gtest.h>
 
+#include <scree/bodies/rigid_placement.h>
 #include <scree/discretization/cut_quadrature.h>
 
 #include <cmath>
@@ -117,6 +118,41 @@ TEST(LevelSetNodes, ClassifiesCells)
                 y < 0.2   ? CellLocation::inside
                 : y < 0.4 ? CellLocation::cut
                           : CellLocation::outside);
+    }
+}
+
+/** A turned plate of less than two cells, seen from one side: the distance from that face alone. */
+TEST(LevelSetNodes, ThinRigidPlateShowsTheFaceThatLooksTowards)
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      CutBodies<2> model(
+        grid_text("-1, -1", "1, 1", "2, 2", 3) + degree_text(degree)
+        + bodies_text({{"plate", motion_text("") + box_text("-0.1, -0.8", "0.1, 0.8")}}));
+      Body<2>     &plate = model.bodies[0];
+      const double h     = model.grid.finest_size();
+      place_rigid_body(plate, {0.03, 0.02, 0.4}, {Point<2>(-1, -1), h / degree, model.grid.box()},
+                       6. * h);
+      ASSERT_GT(std::abs(plate.pose.rotation()[2]), 0.3);
+      const Tensor<1, 2>  normal = plate.pose.initial_gradient()[0];
+      const auto         &basis  = model.level_set_nodes->basis();
+      std::vector<double> values(basis.n_nodes);
+      unsigned int        n_nodes = 0;
+      for (unsigned int c = 0; c < model.grid.n_owned_cells(); ++c)
+        {
+          const auto &cell = model.grid.cells()[c];
+          model.level_set_nodes->facing_values(c, plate, normal, values.data());
+          for (unsigned int i = 0; i < basis.n_nodes; ++i)
+            {
+              const Point<2> X
+                = plate.pose.initial_position(cell.lower + cell.size * Tensor<1, 2>(basis.node(i)));
+              if (std::abs(X[0]) > 0.3 || std::abs(X[1]) > 0.4)
+                continue;
+              EXPECT_NEAR(values[i], X[0] - 0.1, 1e-12) << "at " << X << ", degree " << degree;
+              ++n_nodes;
+            }
+        }
+      EXPECT_GT(n_nodes, 50u);
     }
 }
 } // namespace

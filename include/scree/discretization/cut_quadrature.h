@@ -97,8 +97,9 @@ public:
   QuadratureCache<dim> surface;
   /**
    * Distance from each point of `surface` to the boundary along the normal [L]: -phi/|grad phi| of
-   * the cubic interpolant. int s v over the surface is what the integral of v over the body lacks,
-   * which is of order h^2 for linear cuts. Zero where parts of exact shapes are cut.
+   * the nearest piece of a shape that has several, else of the cubic interpolant. int s v over the
+   * surface is what the integral of v over the body lacks, which is of order h^2 for linear cuts.
+   * Zero where parts of exact shapes are cut.
    */
   std::vector<double> strip_widths;
   /** Tensor Gauss rule of a whole cell, for unit edge. */

@@ -18,7 +18,7 @@ struct BoundaryPoint
   double                 weight; //!< length or area
   // On a moving geometry what the point was at the start of the run and did since then.
   dealii::Point<dim>     reference_position; //!< where formulas are evaluated
-  dealii::Tensor<1, dim> start_displacement; //!< u_n [L]
+  dealii::Tensor<1, dim> start_displacement; //!< u_n [L]; what flows: BoundaryTerms
   double                 area_ratio = 1.;    //!< of reference area to area at the start of the step
 };
 

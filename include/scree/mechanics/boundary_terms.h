@@ -24,12 +24,13 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /**
-   * @param bulk of these bodies: stresses see its projected volume changes
+   * @param bulk       of these bodies: stresses see its projected volume changes
+   * @param start_time of the step, on a moving geometry
    * @throws UserError if a region selects nothing
    */
   BoundaryTerms(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                const Bulk<dim> &bulk);
+                const Bulk<dim> &bulk, const double start_time = 0.);
 
   /** Number of multipliers that the mean supports of the bodies need. */
   static unsigned int n_multipliers(const std::vector<Body<dim>> &bodies);
@@ -100,7 +101,13 @@ private:
   double flow_ratio(const unsigned int active_cell) const;
   /** Share of beta that acts at points. */
   double pointwise_share(const BoundaryRegion<dim> &region, const unsigned int q) const;
-  void   find_moments();
+  /**
+   * Where the material flows, Nitsche's method holds the motion in the step: of the difference
+   * u_n - ubar_n at its start the secant ratio is left. It is small beside the plastic strain times
+   * h, but beta times it is not small beside the yield stress.
+   */
+  void forgive_flow(const double start_time);
+  void find_moments();
   /** Coefficients of moment m by the unknowns of the cell. */
   std::vector<double> moment_row(const NormalMoments &moments, const unsigned int m) const;
   /** int psi_m n.(ubar - u_n) over the prescribed components. */
