@@ -17,12 +17,18 @@ struct BoundaryTerms<dim>::PointIncrement
 
 template <int dim>
 bool
-BoundaryTerms<dim>::is_nonlinear(const BoundaryRegion<dim> &region) const
+BoundaryTerms<dim>::is_nitsche(const BoundaryRegion<dim> &region) const
 {
   const auto &parameters = region.condition->parameters;
-  return parameters.type == ConditionType::pressure
-         || (parameters.type == ConditionType::displacement
-             && parameters.method != DisplacementMethod::penalty);
+  return parameters.type == ConditionType::displacement
+         && parameters.method != DisplacementMethod::penalty;
+}
+
+template <int dim>
+bool
+BoundaryTerms<dim>::is_nonlinear(const BoundaryRegion<dim> &region) const
+{
+  return region.condition->parameters.type == ConditionType::pressure || is_nitsche(region);
 }
 
 template <int dim>
@@ -211,6 +217,7 @@ BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                  \
+  template bool BoundaryTerms<dim>::is_nitsche(const BoundaryRegion<dim> &) const;              \
   template bool BoundaryTerms<dim>::is_nonlinear(const BoundaryRegion<dim> &) const;            \
   template void BoundaryTerms<dim>::find_starts();                                              \
   template dealii::Tensor<1, dim> BoundaryTerms<dim>::stress_vector(                            \

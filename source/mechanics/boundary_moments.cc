@@ -1,4 +1,7 @@
+#include <scree/mechanics/boundary_coverage.h>
 #include <scree/mechanics/boundary_terms.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -30,13 +33,38 @@ BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const uns
 
 template <int dim>
 void
+BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &level_set_nodes)
+{
+  constexpr double largest = 0.5; // plastic strain beyond the elastic
+  const auto       flows   = [&](const BoundaryPoint<dim> &point) {
+    return bulk.secant_ratio(point.active_cell) < largest;
+  };
+  for (auto &region : boundary_regions)
+    {
+      auto      &points    = region.points;
+      const bool has_edges = region.condition->parameters.where != "1";
+      const bool is_found
+        = is_nitsche(region) && has_edges && std::any_of(points.begin(), points.end(), flows);
+      if (!dealii::Utilities::MPI::logical_or(is_found, fields.grid.communicator()))
+        continue;
+      const auto covered  = coverage(fields, level_set_nodes, bodies[region.body], region, *start);
+      const auto is_outer = outer_edge(fields, covered);
+      points.erase(std::remove_if(points.begin(), points.end(),
+                                  [&](const BoundaryPoint<dim> &point) {
+                                    return is_outer[point.active_cell] && flows(point);
+                                  }),
+                   points.end());
+    }
+}
+
+template <int dim>
+void
 BoundaryTerms<dim>::forgive_flow(const double start_time)
 {
   for (auto &region : boundary_regions)
     {
       const auto &condition = *region.condition;
-      if (condition.parameters.type != ConditionType::displacement
-          || condition.parameters.method == DisplacementMethod::penalty)
+      if (!is_nitsche(region))
         continue;
       for (auto &point : region.points)
         if (const double ratio = bulk.secant_ratio(point.active_cell); ratio < 1.)
@@ -197,6 +225,7 @@ BoundaryTerms<dim>::moment_traction(const BoundaryRegion<dim> &region, const uns
 
 #define SCREE_INSTANTIATE(dim)                                                      \
   template double BoundaryTerms<dim>::flow_ratio(const unsigned int) const;         \
+  template void   BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &);    \
   template void   BoundaryTerms<dim>::forgive_flow(const double);                   \
   template double BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &,  \
                                                       const unsigned int) const;    \

@@ -47,8 +47,8 @@ find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes
       else
         {
           const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
-          points = is_load ? load_rule<dim>(rules, fields.basis, geometry, *body.shape, cut, face,
-                                            selects)
+          points = is_load ? load_rule<dim>(rules, fields.basis, geometry, body.shape.get(), cut,
+                                            face, selects)
                            : rules.face_rule(cut, geometry.size, face);
           if (is_load && on_face)
             points.append(strip_on_face(*body.shape, fields.basis, geometry, cut, face));

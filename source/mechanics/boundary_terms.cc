@@ -32,6 +32,8 @@ BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
     , bulk(bulk)
     , start(bulk.step_start())
 {
+  if (start)
+    release_edges(level_set_nodes);
   find_moments();
   if (start)
     {

@@ -314,11 +314,11 @@ private:
 template <int dim>
 CellPoints<dim>
 load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const GridCell<dim> &cell,
-          const Shape<dim> &shape, const CellCut<dim> &cut, const unsigned int face,
+          const Shape<dim> *shape, const CellCut<dim> &cut, const unsigned int face,
           const std::function<bool(const Point<dim> &)> &selects)
 {
   const bool   on_face = face != BoundaryCondition<dim>::no_face;
-  Halving<dim> halving(rules, basis, cell, on_face ? nullptr : &shape, selects);
+  Halving<dim> halving(rules, basis, cell, on_face ? nullptr : shape, selects);
   const auto   add_facets = [&](const Polytope<dim> &part) {
     for (const auto &facet : part.facets)
       if (on_face ? facet.face == int(face) : facet.is_surface())
@@ -344,7 +344,7 @@ load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const GridC
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template void move_to_boundary(const Shape<dim> &, const GridCell<dim> &, BoundaryPoint<dim> &); \
   template CellPoints<dim> load_rule(                                                              \
-    CutCellRules<dim> &, const LagrangeBasis<dim> &, const GridCell<dim> &, const Shape<dim> &,    \
+    CutCellRules<dim> &, const LagrangeBasis<dim> &, const GridCell<dim> &, const Shape<dim> *,    \
     const CellCut<dim> &, const unsigned int, const std::function<bool(const Point<dim> &)> &);    \
   template CellPoints<dim> strip_on_face(const Shape<dim> &, const LagrangeBasis<dim> &,           \
                                          const GridCell<dim> &, const CellCut<dim> &,              \

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
+#include <scree/mechanics/boundary_coverage.h>
 #include <scree/points/seeding.h>
 
 #include <functional>
@@ -27,11 +28,11 @@ template <int dim>
 struct StartedStep
 {
   StartedStep(const std::string &text, const std::string &law,
-              const Displacement<dim> &displacement)
+              const Displacement<dim> &displacement, const double plastic_strain = 0.)
       : input(text)
       , cut(input.bodies)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , points(moved(law, displacement))
+      , points(moved(law, displacement, plastic_strain))
       , start(*cut.fields, quadrature, cut.bodies, points, parameters)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
@@ -41,7 +42,8 @@ struct StartedStep
   {
   }
 
-  MaterialPoints<dim> moved(const std::string &law, const Displacement<dim> &displacement)
+  MaterialPoints<dim> moved(const std::string &law, const Displacement<dim> &displacement,
+                            const double plastic_strain)
   {
     MaterialParameters material;
     material.law     = law;
@@ -63,7 +65,11 @@ struct StartedStep
       = PointSeeding<dim>(*cut.fields, *cut.level_set_nodes, cut.bodies, quadrature, density)
           .on_sub_grid(cut.fields->basis.degree + 1, n_internal);
     for (std::size_t p = 0; p < result.size(); ++p)
-      result.reference_position[p] = result.position[p] - displacement(result.position[p]);
+      {
+        result.reference_position[p] = result.position[p] - displacement(result.position[p]);
+        if (n_internal > 0)
+          result.internal[p * n_internal + 6] = plastic_strain;
+      }
     return result;
   }
 
@@ -355,5 +361,71 @@ TEST(MovingEquilibrium, FormulasSeeReferencePositions)
   EXPECT_LT(largest, -0.1);
   EXPECT_NEAR(smallest_pressed, 0.7, 0.2);
   EXPECT_GT(smallest_pressed, 0.7);
+}
+
+namespace
+{
+/**
+ * A surface held in three regions, moved by 0.04 over cells of 1/2: of region r the cell i along x
+ * is covered by covers[r][i].
+ */
+constexpr double covers[3][4] = {{0.72, 1., 1., 0.28}, {0., 0., 0., 0.4}, {0., 0., 0.24, 0.32}};
+
+template <int dim>
+void
+check_edges_of_regions()
+{
+  const std::string hold = "set On = surface\nset Where = ";
+  const std::string text
+    = (dim == 2 ? grid_text("-1, -0.5", "1, 0.5", "4, 2", 0)
+                : grid_text("-1, -0.5, -0.5", "1, 0.5, 0.5", "4, 2, 2", 0))
+      + degree_text(1)
+      + bodies_text({{"a", (dim == 2 ? half_space_text("0, 0.03", "0, 1")
+                                     : half_space_text("0, 0, 0.03", "0, 0, 1"))
+                             + conditions_text({{"wide", hold + "(x > -0.9) && (x < 0.6)"},
+                                                {"narrow", hold + "(x > 0.54) && (x < 0.74)"},
+                                                {"astride", hold + "(x > 0.34) && (x < 0.62)"}})}})
+      + contact_text("set Law = frictionless");
+  const auto moved = [](const Point<dim> &) { return 0.04 * Point<dim>::unit_vector(0); };
+  const StartedStep<dim> elastic(text, "J2 small strain", moved);
+  const StartedStep<dim> flows(text, "J2 small strain", moved, 0.05);
+  for (unsigned int r = 0; r < 3; ++r)
+    {
+      const auto &region   = elastic.boundary_terms.regions()[r];
+      const auto  covered  = coverage(*elastic.cut.fields, *elastic.cut.level_set_nodes,
+                                      elastic.cut.bodies[0], region, elastic.start);
+      const auto  is_outer = outer_edge(*elastic.cut.fields, covered);
+      const auto  along    = [&](const unsigned int a) {
+        return std::lround(
+              2. * (elastic.cut.grid.cells()[elastic.cut.fields->cells()[a].grid_cell].lower[0] + 1.));
+      };
+      for (const auto &point : region.points)
+        {
+          const unsigned int a = point.active_cell;
+          EXPECT_NEAR(covered[a], covers[r][along(a)], dim == 2 ? 2e-3 : 0.04);
+          EXPECT_EQ(is_outer[a], r == 0 && along(a) == 3) << "region " << r << ", " << along(a);
+        }
+      // What flows is free there and only there.
+      std::size_t n_free = 0;
+      for (const auto &point : region.points)
+        n_free += is_outer[point.active_cell];
+      const auto &left = flows.boundary_terms.regions()[r].points;
+      EXPECT_EQ(left.size() + n_free, region.points.size());
+      for (const auto &point : left)
+        EXPECT_FALSE(is_outer[point.active_cell]);
+      n_free = Utilities::MPI::sum(n_free, MPI_COMM_WORLD);
+      EXPECT_EQ(n_free > 0, r == 0);
+    }
+}
+} // namespace
+
+TEST(EdgesOfRegionsMPI, InTwoDimensions)
+{
+  check_edges_of_regions<2>();
+}
+
+TEST(EdgesOfRegionsMPI, InThreeDimensions)
+{
+  check_edges_of_regions<3>();
 }
 } // namespace scree

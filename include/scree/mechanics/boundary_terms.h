@@ -97,6 +97,12 @@ private:
     double           stiffness;
     VolumeModes<dim> modes;
   };
+  /**
+   * Nitsche's method does not hold cells that flow (plastic strain beyond the elastic) on the outer
+   * edge of a region: the kink at its edge is not in a cell's polynomial, so that each cell is held
+   * as a whole, and the region would be wider by half a cell on average.
+   */
+  void release_edges(const LevelSetNodes<dim> &level_set_nodes);
   /** Of Nitsche's moduli in a cell that flows. */
   double flow_ratio(const unsigned int active_cell) const;
   /** Share of beta that acts at points. */
@@ -119,6 +125,8 @@ private:
   dealii::Tensor<1, dim> moment_traction(const BoundaryRegion<dim> &region, const unsigned int q,
                                          const Vector &u, const double time) const;
 
+  /** Whether a displacement is prescribed by Nitsche's method. */
+  bool is_nitsche(const BoundaryRegion<dim> &region) const;
   /** Whether the condition has a term that is not linear. */
   bool is_nonlinear(const BoundaryRegion<dim> &region) const;
   /** The law's answer to the increment u at a point, F_D and unit gradients; boundary_increment.cc.

@@ -30,11 +30,12 @@ CellPoints<dim> strip_on_face(const Shape<dim> &shape, const LagrangeBasis<dim> 
  * `selects` (position [L]) ends among them, the surface is halved until the part that holds the end
  * is small, 2^-10 of the cell in 2D, 2^-5 in 3D.
  * @param face    of the cell, no_face: the cut surface
- * @param selects sees the exact boundary; none: all is selected
+ * @param shape   whose exact boundary `selects` sees; null: it sees the cut
+ * @param selects none: all is selected
  */
 template <int dim>
 CellPoints<dim> load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis,
-                          const GridCell<dim> &cell, const Shape<dim> &shape,
+                          const GridCell<dim> &cell, const Shape<dim> *shape,
                           const CellCut<dim> &cut, const unsigned int face,
                           const std::function<bool(const dealii::Point<dim> &)> &selects);
 } // namespace scree

@@ -1,0 +1,72 @@
+#include <scree/mechanics/boundary_coverage.h>
+#include <scree/mechanics/load_points.h>
+
+#include <algorithm>
+
+namespace scree
+{
+template <int dim>
+std::vector<double>
+coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+         const Body<dim> &body, const BoundaryRegion<dim> &region, const StepStart<dim> &start)
+{
+  CutCellRules<dim>   rules(fields.basis);
+  std::vector<double> result(fields.n_owned_cells(), 0.);
+  int                 last_cell = -1;
+  for (const auto &point : region.points)
+    {
+      const unsigned int a = point.active_cell;
+      if (last_cell == int(a))
+        continue;
+      last_cell                                                      = a;
+      const auto                                            cell     = fields.cells()[a].grid_cell;
+      const auto                                           &geometry = fields.grid.cells()[cell];
+      const std::function<bool(const dealii::Point<dim> &)> selects  = [&](const auto &x) {
+        return region.condition->selects(start.reference_position({a, fields.unit_point(a, x)}));
+      };
+      const CellPoints<dim> surface
+        = load_rule<dim>(rules, fields.basis, geometry, nullptr, level_set_nodes.cut(cell, body),
+                         region.condition->box_face, selects);
+      double covered = 0., all = 0.;
+      for (unsigned int q = 0; q < surface.points.size(); ++q)
+        {
+          all += surface.weights[q];
+          if (selects(geometry.lower + geometry.size * dealii::Tensor<1, dim>(surface.points[q])))
+            covered += surface.weights[q];
+        }
+      result[a] = all > 0. ? covered / all : 0.;
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<bool>
+outer_edge(const Fields<dim> &fields, const std::vector<double> &coverage)
+{
+  using Vector                = dealii::TrilinosWrappers::MPI::Vector;
+  const MPI_Comm communicator = fields.grid.communicator();
+  Vector         owned(fields.owned(), communicator); // at nodes of cells that are inside
+  for (unsigned int a = 0; a < coverage.size(); ++a)
+    if (coverage[a] >= 0.5)
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        owned(fields.nodes(a)[i]) += 1.;
+  owned.compress(dealii::VectorOperation::add);
+  Vector inside(fields.owned(), fields.relevant(), communicator);
+  inside = owned;
+  std::vector<bool> result(coverage.size(), false);
+  for (unsigned int a = 0; a < coverage.size(); ++a)
+    if (coverage[a] > 0. && coverage[a] < 0.5)
+      result[a] = std::any_of(fields.nodes(a), fields.nodes(a) + fields.basis.n_nodes,
+                              [&](const DofIndex node) { return inside(node) > 0.; });
+  return result;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                           \
+  template std::vector<double> coverage(const Fields<dim> &, const LevelSetNodes<dim> &, \
+                                        const Body<dim> &, const BoundaryRegion<dim> &,  \
+                                        const StepStart<dim> &);                         \
+  template std::vector<bool>   outer_edge(const Fields<dim> &, const std::vector<double> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree
