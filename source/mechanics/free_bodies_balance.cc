@@ -35,7 +35,7 @@ struct FreeBodies<dim>::Balance
   void evaluate(const Coordinates &q);
 
   /** Whether no body misses its balance by more than a part of what acts on it. */
-  bool is_balanced() const;
+  bool is_balanced(const bool is_settling) const;
 
   /** Whether contact carries less than half of what acts on some body. */
   bool has_lost_contact() const;
@@ -144,12 +144,13 @@ FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
 
 template <int dim>
 bool
-FreeBodies<dim>::Balance::is_balanced() const
+FreeBodies<dim>::Balance::is_balanced(const bool is_settling) const
 {
   const Coordinates moments = free.rotations(forces);
   for (unsigned int i = 0; i < acting.size(); ++i)
     for (unsigned int k = free.first[i]; k < free.first[i] + free.bases[i].n(); ++k)
-      if (std::abs(forces[k] - moments[k]) > balanced * acting[i]
+      if (std::abs(forces[k] - moments[k])
+            > (is_settling ? balanced : free.tolerance(i)) * acting[i]
           || std::abs(moments[k]) > free.tolerance(i) * acting[i])
         return false;
   return true;
@@ -226,7 +227,7 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
   Balance      balance(*this, loads, history, is_falling);
   Coordinates  q(n_coordinates, 0.);
   balance.evaluate(q);
-  if (is_settling ? balance.is_balanced() : !balance.has_lost_contact())
+  if (is_settling ? balance.is_balanced(is_settling) : !balance.has_lost_contact())
     return {};
   // Contact points stay where they are in a step: a moving geometry follows after a cell.
   const auto room = [&]() {
@@ -236,7 +237,8 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
     return turns_finitely ? length - moved : length;
   };
   for (unsigned int iteration = 0;
-       iteration < max_iterations && !balance.is_balanced() && room() > 1e-3 * length; ++iteration)
+       iteration < max_iterations && !balance.is_balanced(is_settling) && room() > 1e-3 * length;
+       ++iteration)
     {
       const Coordinates dq    = balance.direction(room(), damping);
       const Coordinates start = q;
