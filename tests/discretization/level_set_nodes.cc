@@ -128,7 +128,8 @@ TEST(LevelSetNodes, ThinRigidPlateShowsTheFaceThatLooksTowards)
     {
       CutBodies<2> model(
         grid_text("-1, -1", "1, 1", "2, 2", 3) + degree_text(degree)
-        + bodies_text({{"plate", motion_text("") + box_text("-0.1, -0.8", "0.1, 0.8")}}));
+        + bodies_text({{"plate", motion_text("") + box_text("-0.1, -0.8", "0.1, 0.8")},
+                       {"ball", ball_text("0.7, 0.7", 0.2)}}));
       Body<2>     &plate = model.bodies[0];
       const double h     = model.grid.finest_size();
       place_rigid_body(plate, {0.03, 0.02, 0.4}, {Point<2>(-1, -1), h / degree, model.grid.box()},
