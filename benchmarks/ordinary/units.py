@@ -38,7 +38,7 @@ def lines_in_sections(lines):
 
 def in_units(text, length, stress):
     """The parameter file `text` with lengths times `length` and stresses times `stress`; two-dimensional."""
-    lines = text.splitlines()
+    lines = re.sub(r'\\\s*\n', ' ', text).splitlines()  # continued lines as one
     types = {}
     for line, path in lines_in_sections(lines):  # of the boundary conditions, may stand after their values
         match = re.match(r'\s*set\s+Type\s*=\s*(.*?)\s*(#.*)?$', line)
