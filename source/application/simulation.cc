@@ -206,13 +206,15 @@ Simulation<dim>::run()
         }
       ++attempts;
       if (!is_too_large)
-        require_equilibrium_exists();
-      if (!is_too_large && !holds_moments && is_moving() && !equilibrium->free_bodies().empty())
         {
-          // A second time, after a fall and with moments held.
-          settle();
-          holds_moments = true;
-          continue;
+          require_equilibrium_exists();
+          if (!holds_moments && is_moving() && !equilibrium->free_bodies().empty())
+            {
+              // A second time, after a fall and with moments held.
+              settle();
+              holds_moments = true;
+              continue;
+            }
         }
       require(step_control.reject(), "Time",
               "the load step to time " + short_number(record.time)

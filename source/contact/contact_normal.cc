@@ -75,14 +75,14 @@ struct Side
   dealii::Tensor<1, dim> normal; //!< out of the body
   bool                   is_known = false, is_exact = false, is_kinked = false;
 };
+
 /** Whether a body has the same normal a cell beside x. */
 template <int dim>
 bool
 is_flat(const ExactDistances<dim> &distances, const unsigned int body, const dealii::Point<dim> &x,
-        const double size)
+        const dealii::Tensor<1, dim> &normal, const double size)
 {
-  constexpr double             same   = 1e-6;
-  const dealii::Tensor<1, dim> normal = distances.normal(body, x);
+  constexpr double same = 1e-6;
   for (const auto &tangent : surface_tangents<dim>(normal))
     for (const double side : {-size, size})
       if ((distances.normal(body, x + side * tangent) - normal).norm() > same)
@@ -112,7 +112,8 @@ contact_normal(const ExactDistances<dim> &distances, const std::vector<Body<dim>
   if (a_is_firm != b_is_firm && !(a_is_firm ? of_a : of_b).is_kinked)
     {
       take(a_is_firm);
-      result.is_flat = is_flat(distances, a_is_firm ? a : b, x, size);
+      result.is_flat
+        = is_flat(distances, a_is_firm ? a : b, x, (a_is_firm ? of_a : of_b).normal, size);
     }
   else if (of_a.is_known && of_b.is_known)
     {

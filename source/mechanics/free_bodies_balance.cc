@@ -35,7 +35,7 @@ struct FreeBodies<dim>::Balance
   void evaluate(const Coordinates &q);
 
   /** Whether no body misses its balance by more than a part of what acts on it. */
-  bool is_balanced(const bool is_settling) const;
+  bool is_balanced() const;
 
   /** Whether contact carries less than half of what acts on some body. */
   bool has_lost_contact() const;
@@ -46,6 +46,7 @@ struct FreeBodies<dim>::Balance
   const FreeBodies          &free;
   const Coordinates         &loads;
   const ContactHistory<dim> &history;
+  const bool                 is_falling; // till forces balance; else a step goes on from there
 
   std::vector<std::size_t>            first_of_pair; // entry of the pair's block
   std::vector<unsigned int>           points;        // of contact, with a free body
@@ -64,6 +65,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
     : free(free)
     , loads(loads)
     , history(history)
+    , is_falling(is_falling)
 {
   const auto &contact = free.contact;
   for (const auto &coordinates : free.coordinates_of_pair)
@@ -144,13 +146,12 @@ FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
 
 template <int dim>
 bool
-FreeBodies<dim>::Balance::is_balanced(const bool is_settling) const
+FreeBodies<dim>::Balance::is_balanced() const
 {
   const Coordinates moments = free.rotations(forces);
   for (unsigned int i = 0; i < acting.size(); ++i)
     for (unsigned int k = free.first[i]; k < free.first[i] + free.bases[i].n(); ++k)
-      if (std::abs(forces[k] - moments[k])
-            > (is_settling ? balanced : free.tolerance(i)) * acting[i]
+      if (std::abs(forces[k] - moments[k]) > (is_falling ? balanced : free.tolerance(i)) * acting[i]
           || std::abs(moments[k]) > free.tolerance(i) * acting[i])
         return false;
   return true;
@@ -227,7 +228,7 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
   Balance      balance(*this, loads, history, is_falling);
   Coordinates  q(n_coordinates, 0.);
   balance.evaluate(q);
-  if (is_settling ? balance.is_balanced(is_settling) : !balance.has_lost_contact())
+  if (is_settling ? balance.is_balanced() : !balance.has_lost_contact())
     return {};
   // Contact points stay where they are in a step: a moving geometry follows after a cell.
   const auto room = [&]() {
@@ -237,8 +238,7 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
     return turns_finitely ? length - moved : length;
   };
   for (unsigned int iteration = 0;
-       iteration < max_iterations && !balance.is_balanced(is_settling) && room() > 1e-3 * length;
-       ++iteration)
+       iteration < max_iterations && !balance.is_balanced() && room() > 1e-3 * length; ++iteration)
     {
       const Coordinates dq    = balance.direction(room(), damping);
       const Coordinates start = q;
