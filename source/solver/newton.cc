@@ -282,6 +282,8 @@ Newton::solve(Vector &u) const
       hooks.freeze(true);
       go_on(last);
       hooks.freeze(false);
+      if (!std::isfinite(result.residuals.back()))
+        break;
       transient_mass        = std::max(progress.mass, first_later_mass);
       progress.mass         = first_later_mass;
       progress.is_transient = false;

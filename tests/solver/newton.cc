@@ -224,6 +224,14 @@ TEST(Newton, FailuresAreTold)
   EXPECT_EQ(result.status, NewtonStatus::diverged);
   EXPECT_EQ(result.iterations, 0u);
 
+  // With an artificial mass no round goes on from what is not finite.
+  hooks           = scalar([&](double u) { return u == 0. ? 1. : nan(u); }, one);
+  hooks.set_mass  = [](double) {};
+  hooks.mass_work = [](const Vector &) { return 1.; };
+  hooks.freeze    = [](bool) {};
+  u               = vector({0.});
+  EXPECT_EQ(Newton(NewtonParameters(), hooks).solve(u).status, NewtonStatus::diverged);
+
   // u^2 + 1 has no zero.
   u      = vector({0.7});
   result = Newton(NewtonParameters(),

@@ -132,8 +132,8 @@ struct NewtonResult
  * step of alpha > 1/2 and four times as large after one of alpha < 0.2. The second part is the
  * iteration above from where the first one ended, with friction set free and with s from 1e-4 to
  * 1e-9 by the same rule, so that what drifts under a small force finds what stops it; if it fails
- * too, the next round goes on from where the first part ended. M holds what moves freely and never
- * enters r: what converged is in balance without it.
+ * too, the next round goes on from where the first part ended, unless that is not finite. M holds
+ * what moves freely and never enters r: what converged is in balance without it.
  *
  * *Balance:* before the first and after every iteration a hook may move u to where forces on what
  * moves freely balance, 6 times at most: no tangent knows of contact that is lost.
