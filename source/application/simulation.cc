@@ -190,9 +190,9 @@ Simulation<dim>::run()
     {
       if (solve_step(step_control.next_time()))
         {
-          record.attempts = attempts;
-          attempts        = 1;
-          holds_moments   = false;
+          record.attempts   = attempts;
+          attempts          = 1;
+          is_second_attempt = false;
           step_control.accept(record.newton_iterations);
           write_results();
           report_step(wall.wall_time());
@@ -208,11 +208,11 @@ Simulation<dim>::run()
       if (!is_too_large)
         {
           require_equilibrium_exists();
-          if (!holds_moments && is_moving() && !equilibrium->free_bodies().empty())
+          if (!is_second_attempt && is_moving() && !equilibrium->free_bodies().empty())
             {
               // A second time, after a fall and with moments held.
               settle();
-              holds_moments = true;
+              is_second_attempt = true;
               continue;
             }
         }

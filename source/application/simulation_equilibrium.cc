@@ -74,7 +74,7 @@ Simulation<dim>::solve_step(const double time)
   record.step             = step;
   record.time             = time;
   is_too_large            = false;
-  equilibrium->set_moments_held(holds_moments);
+  equilibrium->set_second_attempt(is_second_attempt);
   auto               u      = first_guess(time);
   const NewtonResult result = solve_equilibrium(u);
   record.newton_iterations  = result.iterations;
@@ -85,8 +85,10 @@ Simulation<dim>::solve_step(const double time)
       return false;
     }
   tell_what_is_loose();
+  const auto balances = require_balance(u);
   if (is_moving())
     {
+      equilibrium->turn(u);
       const Timings::Scope scope(timings, "material points");
       points_at_end            = moved_points(u);
       const std::string reason = why_too_large();
@@ -98,7 +100,6 @@ Simulation<dim>::solve_step(const double time)
           return false;
         }
     }
-  const auto balances = require_balance(u);
   equilibrium->accept(u, state.contact);
   require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
                                communicator);
@@ -219,11 +220,32 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     log.progress(step_control.time() / parameters.time.end_time,
                  "step " + std::to_string(record.step) + ", " + text);
   };
-  const NewtonResult result    = Newton(parameters.newton, hooks).solve(u);
-  const bool         is_a_step = record.step > 0; // not a part of the overlap
-  if (is_a_step && result.converged() && pressed < 1e-6 * most_pressed)
+  const Vector start(u);
+  NewtonResult result  = Newton(parameters.newton, hooks).solve(u);
+  const auto   is_lost = [&]() { // in a step, not in a part of the overlap
+    return record.step > 0 && result.converged() && pressed < 1e-6 * most_pressed;
+  };
+  if (is_lost())
     {
-      require_no_slide();
+      // Friction may hold what sticks at first.
+      u = start;
+      contact->set_sticks(true);
+      const unsigned int n_before
+        = result.iterations + Newton(parameters.newton, hooks).solve(u).iterations;
+      contact->set_sticks(false);
+      result = Newton(parameters.newton, hooks).solve(u);
+      result.iterations += n_before;
+    }
+  if (is_lost())
+    {
+      if (const auto error = slide())
+        {
+          if (step_control.step_fraction() <= parameters.time.minimum_step_fraction)
+            throw UserError(*error);
+          result.status  = NewtonStatus::diverged;
+          result.message = "bodies slide along each other until nothing presses any more";
+          return result;
+        }
       log.line("Warning: contact carries nothing at time " + short_number(record.time)
                + ": a body that nothing else holds moves away from what presses it");
     }
@@ -231,11 +253,11 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
 }
 
 template <int dim>
-void
-Simulation<dim>::require_no_slide() const
+std::optional<UserError>
+Simulation<dim>::slide() const
 {
   if (is_moving())
-    return;
+    return {};
   // Gap, slip in cells, and pair of the point where bodies are nearest.
   std::array<double, 3> nearest = {{std::numeric_limits<double>::max(), 0., 0.}};
   for (unsigned int i = 0; i < contact->points().size(); ++i)
@@ -248,10 +270,10 @@ Simulation<dim>::require_no_slide() const
       }
   for (const auto &other : dealii::Utilities::MPI::all_gather(communicator, nearest))
     nearest = std::min(nearest, other);
-  if (nearest[1] < 1.)
-    return;
+  if (nearest[1] < step_control.step_fraction())
+    return {};
   const ContactPair &pair = contact->pairs()[static_cast<unsigned int>(nearest[2])];
-  throw UserError(
+  return UserError(
     "Contact/" + pair.law.name,
     "'" + bodies[pair.a].name + "' or '" + bodies[pair.b].name + "' slides away at time "
       + short_number(record.time)
@@ -261,7 +283,7 @@ Simulation<dim>::require_no_slide() const
 }
 
 template <int dim>
-bool
+std::optional<double>
 Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double left)
 {
   record       = StepRecord();
@@ -279,8 +301,11 @@ Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double 
       points_at_end = moved_points(u);
       is_solved     = why_too_large().empty();
     }
+  double largest_motion = 0.;
   if (is_solved)
     {
+      for (const double motion : equilibrium->largest_displacements(u))
+        largest_motion = std::max(largest_motion, motion);
       equilibrium->accept(u, state.contact);
       equilibrium->count_overlap();
       state.displacement = u;
@@ -290,16 +315,19 @@ Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double 
         move_geometry();
     }
   contact->resolve_overlap({});
-  return is_solved;
+  return is_solved ? std::make_optional(largest_motion) : std::nullopt;
 }
 
 template <int dim>
 void
 Simulation<dim>::resolve_overlap()
 {
-  constexpr double negligible = 1e-6; // cells
-  const auto       overlaps   = contact->overlaps(communicator);
-  const double     largest
+  constexpr double       negligible = 1e-6; // cells
+  constexpr double       first_drag = 0.1, largest_drag = 10.;
+  constexpr double       at_rest   = 0.05; // cells
+  constexpr unsigned int max_moves = 10;   // of a part
+  const auto             overlaps  = contact->overlaps(communicator);
+  const double           largest
     = overlaps.empty() ? 0. : *std::max_element(overlaps.begin(), overlaps.end());
   auto u = state.displacement;
   if (has_started() || largest < negligible * grid->finest_size() || !equilibrium->set_unloaded(u))
@@ -307,21 +335,32 @@ Simulation<dim>::resolve_overlap()
   TimeParameters parts;
   parts.minimum_step_fraction = 1. / 1024;
   StepControl  control(parts);
-  unsigned int n_iterations = 0;
-  bool         goes_on      = true;
+  unsigned int n_iterations = 0, n_parts = 0, n_moves = 0; // moves of the present part
+  bool         goes_on = true;
+  double       drag    = 0.;
   while (goes_on && !control.finished())
     {
-      const bool is_solved = resolve_part(overlaps, 1. - control.next_time());
+      const auto motion = resolve_part(overlaps, 1. - control.next_time());
       n_iterations += record.newton_iterations;
-      if (is_solved)
-        control.accept(record.newton_iterations);
+      if (motion)
+        {
+          ++n_parts;
+          if (drag == 0. || *motion < at_rest * grid->finest_size() || ++n_moves >= max_moves)
+            {
+              n_moves = 0;
+              control.accept(record.newton_iterations);
+            }
+        }
+      else if (is_moving() && drag < largest_drag && !equilibrium->free_bodies().empty())
+        drag = std::max(first_drag, 10. * drag);
       else
         goes_on = control.reject();
+      equilibrium->set_drag(drag);
     }
+  equilibrium->set_drag(0.);
   if (goes_on)
-    log.line("Overlap at the start is resolved without friction in "
-             + std::to_string(control.n_accepted()) + " part(s) and " + std::to_string(n_iterations)
-             + " iterations");
+    log.line("Overlap at the start is resolved without friction in " + std::to_string(n_parts)
+             + " part(s) and " + std::to_string(n_iterations) + " iterations");
   else
     log.line("Warning: the overlap at the start is resolved without friction only to "
              + short_number(100. * control.time())
@@ -400,13 +439,14 @@ Simulation<dim>::require_equilibrium_exists()
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
   template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
-  template bool Simulation<dim>::resolve_part(const std::vector<double> &, const double);          \
-  template void Simulation<dim>::settle();                                                         \
-  template void Simulation<dim>::resolve_overlap();                                                \
-  template bool Simulation<dim>::solve_step(const double);                                         \
-  template LinearSolveResult Simulation<dim>::solve_linear_system(                                 \
-    const LinearSolver::Vector &, const double, LinearSolver::Vector &);                           \
-  template void         Simulation<dim>::require_no_slide() const;                                 \
+  template std::optional<double> Simulation<dim>::resolve_part(const std::vector<double> &,        \
+                                                               const double);                      \
+  template void                  Simulation<dim>::settle();                                        \
+  template void                  Simulation<dim>::resolve_overlap();                               \
+  template bool                  Simulation<dim>::solve_step(const double);                        \
+  template LinearSolveResult     Simulation<dim>::solve_linear_system(                             \
+        const LinearSolver::Vector &, const double, LinearSolver::Vector &);                       \
+  template std::optional<UserError> Simulation<dim>::slide() const;                                \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \
                                                          typename FreeBodies<dim>::Coordinates &); \

@@ -111,7 +111,8 @@ ContactPoints<dim>::response(const unsigned int p, const dealii::Tensor<1, dim> 
   const bool               is_tied = law.law == ContactLaw::tied;
   const ContactLaw         acting  = is_tied && !point.is_glued             ? ContactLaw::none
                                      : !is_tied && !pair_allowances.empty() ? ContactLaw::frictionless
-                                                                            : law.law;
+                                     : all_stick && law.law == ContactLaw::coulomb ? ContactLaw::stick
+                                                                                   : law.law;
   const double             gap
     = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
   return contact_response<dim>(acting, law.friction_coefficient,

@@ -10,6 +10,20 @@ namespace scree
 {
 template <int dim>
 void
+ContactPoints<dim>::set_touching_holds(const bool holds)
+{
+  touching_holds = holds;
+}
+
+template <int dim>
+void
+ContactPoints<dim>::set_sticks(const bool sticks)
+{
+  all_stick = sticks;
+}
+
+template <int dim>
+void
 ContactPoints<dim>::freeze_friction(const bool freeze)
 {
   frozen_limits.clear();
@@ -44,8 +58,10 @@ ContactPoints<dim>::resolve_overlap(const std::vector<double> &allowances)
   pair_allowances = allowances;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                  \
-  template void                ContactPoints<dim>::freeze_friction(const bool); \
+#define SCREE_INSTANTIATE(dim)                                                     \
+  template void                ContactPoints<dim>::set_touching_holds(const bool); \
+  template void                ContactPoints<dim>::set_sticks(const bool);         \
+  template void                ContactPoints<dim>::freeze_friction(const bool);    \
   template std::vector<double> ContactPoints<dim>::overlaps(const MPI_Comm) const;
 
 template void ContactPoints<2>::resolve_overlap(const std::vector<double> &);

@@ -12,6 +12,9 @@
 
 namespace scree
 {
+// The artificial mass of bodies whose moments are held whole: round-off alone turns them.
+constexpr double held_mass_factor = 1e-3;
+
 template <int dim>
 Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                               Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
@@ -32,6 +35,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
         &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
+  strained.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
@@ -176,7 +180,9 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     ghosted = u;
   else
     ghosted = with_ghosts(u);
-  scratch = u;
+  strained_u = turns_infinitesimally() ? free.strained(u, accepted_u, artificial_mass) : u;
+  strained   = turns_infinitesimally() ? with_ghosts(strained_u) : ghosted;
+  scratch    = u;
   scratch.scale(diagonal);
   stiffness_times_displacement = scratch.l2_norm();
   contact.evaluate(ghosted, history);
@@ -187,18 +193,25 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     rigid.applied(ghosted, time, applied_forces);
   else
     applied_forces = 0.;
-  stiffness.vmult(internal_forces, u);
+  stiffness.vmult(internal_forces, strained_u);
   if (!is_linear_but_for_contact())
     {
       internal_forces += start_forces;
-      bulk.add_internal_forces(ghosted, internal_forces);
-      boundary_terms.add_internal_forces(ghosted, time, internal_forces);
+      bulk.add_internal_forces(strained, internal_forces);
+      boundary_terms.add_internal_forces(strained, time, internal_forces);
       internal_forces.compress(dealii::VectorOperation::add);
     }
   r = loads;
   r -= internal_forces;
   r += contact_forces;
   r += applied_forces;
+  if (drag != 0.)
+    {
+      scratch = u;
+      scratch -= accepted_u;
+      scratch.scale(artificial_mass);
+      r.add(-drag, scratch);
+    }
   set_zero_on_prescribed(r);
   for (const auto &line : fields.hanging_constraints().get_lines())
     if (fields.owned().is_element(line.index))
@@ -212,8 +225,8 @@ const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
-  bulk.add_tangent(ghosted, newton_matrix);
-  boundary_terms.add_tangent(ghosted, time, newton_matrix);
+  bulk.add_tangent(strained, newton_matrix);
+  boundary_terms.add_tangent(strained, time, newton_matrix);
   contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
   add_artificial_mass(newton_matrix);
@@ -253,10 +266,11 @@ Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
 {
   for (const DofIndex index : fields.owned())
     if (artificial_mass(index) != 0.)
-      matrix.add(index, index, mass_factor * artificial_mass(index));
+      matrix.add(index, index, (mass_factor + drag) * artificial_mass(index));
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     for (const DofIndex unknown : free.unknowns(i))
-      if (held_moments[free_bodies()[i].body] != 0. && mass_factor < held_mass_factor)
+      if (are_moments_whole && held_moments[free_bodies()[i].body] != 0.
+          && mass_factor < held_mass_factor)
         matrix.add(unknown, unknown, (held_mass_factor - mass_factor) * artificial_mass(unknown));
   // Rows without any other entry.
   for (const DofIndex index : rigid.prescribed())
@@ -326,7 +340,7 @@ Equilibrium<dim>::force_scale() const
     if (region.condition->parameters.type == ConditionType::displacement)
       for (unsigned int q = 0; q < region.points.size(); ++q)
         held += std::pow(region.points[q].weight, 2)
-                * boundary_terms.traction(region, q, ghosted, time).norm_square();
+                * boundary_terms.traction(region, q, strained, time).norm_square();
   squares += dealii::Utilities::MPI::sum(held, fields.grid.communicator());
   return std::sqrt(squares);
 }
@@ -422,31 +436,10 @@ Equilibrium<dim>::tangent_changes() const
 }
 
 template <int dim>
-void
-Equilibrium<dim>::advance(const Vector &du, Vector &u) const
-{
-  free.advance(du, artificial_mass, u);
-}
-
-template <int dim>
 bool
 Equilibrium<dim>::is_linear_but_for_contact() const
 {
   return bulk.step_start() == nullptr;
-}
-
-template <int dim>
-void
-Equilibrium<dim>::set_moments_held(const bool is_held)
-{
-  are_moments_held = is_held;
-}
-
-template <int dim>
-double
-Equilibrium<dim>::held_moment(const unsigned int body) const
-{
-  return held_moments[body];
 }
 
 template <int dim>

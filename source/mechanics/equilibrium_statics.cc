@@ -31,6 +31,13 @@ Equilibrium<dim>::set_artificial_mass(const double factor)
 }
 
 template <int dim>
+void
+Equilibrium<dim>::set_drag(const double factor)
+{
+  drag = factor;
+}
+
+template <int dim>
 double
 Equilibrium<dim>::artificial_work(const Vector &du) const
 {
@@ -77,7 +84,7 @@ Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &hi
   const auto motion = free.balancing(forces, history, is_settling);
   if (motion.empty())
     return {};
-  free.add(motion, u);
+  free.add(motion, u, turns_infinitesimally());
   return free.work(forces, motion);
 }
 
@@ -86,23 +93,74 @@ void
 Equilibrium<dim>::hold_moments(Vector &r)
 {
   held_moments.assign(bodies.size(), 0.);
-  if (!are_moments_held || is_linear_but_for_contact() || free_bodies().empty())
+  are_moments_whole = false;
+  if (!turns_infinitesimally())
     return;
-  const auto moments = free.misplaced_moments(free.resultants(r));
+  const auto [moments, factor] = free.misplaced_moments(free.resultants(r));
   if (moments.empty())
     return;
   free.subtract(moments, artificial_mass, r);
+  are_moments_whole = factor == 1.;
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     held_moments[free_bodies()[i].body] = free.magnitude(moments, i);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                            \
-  template void                  Equilibrium<dim>::shorten(Vector &, const double) const; \
-  template void                  Equilibrium<dim>::set_artificial_mass(const double);     \
-  template double                Equilibrium<dim>::artificial_work(const Vector &) const; \
-  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;          \
-  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;              \
-  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                 \
+template <int dim>
+void
+Equilibrium<dim>::set_second_attempt(const bool is_second)
+{
+  is_second_attempt = is_second;
+}
+
+template <int dim>
+double
+Equilibrium<dim>::held_moment(const unsigned int body) const
+{
+  return held_moments[body];
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::turns_infinitesimally() const
+{
+  return is_second_attempt && !is_linear_but_for_contact() && !free_bodies().empty();
+}
+
+template <int dim>
+void
+Equilibrium<dim>::advance(const Vector &du, Vector &u) const
+{
+  if (turns_infinitesimally())
+    u += du;
+  else
+    free.advance(du, artificial_mass, u);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::turn(Vector &u) const
+{
+  if (!turns_infinitesimally())
+    return;
+  Vector du(u);
+  du -= accepted_u;
+  u = accepted_u;
+  free.advance(du, artificial_mass, u);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                              \
+  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;   \
+  template void                  Equilibrium<dim>::set_artificial_mass(const double);       \
+  template void                  Equilibrium<dim>::set_second_attempt(const bool);          \
+  template void                  Equilibrium<dim>::set_drag(const double);                  \
+  template double                Equilibrium<dim>::held_moment(const unsigned int) const;   \
+  template bool                  Equilibrium<dim>::turns_infinitesimally() const;           \
+  template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const; \
+  template void                  Equilibrium<dim>::turn(Vector &) const;                    \
+  template double                Equilibrium<dim>::artificial_work(const Vector &) const;   \
+  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;            \
+  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                \
+  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                   \
     Vector &, const ContactHistory<dim> &, const bool) const;
 
 template void Equilibrium<2>::hold_moments(Vector &);

@@ -121,7 +121,7 @@ FreeBodies<dim>::contact_on_bodies() const
 }
 
 template <int dim>
-typename FreeBodies<dim>::Coordinates
+typename FreeBodies<dim>::MisplacedMoments
 FreeBodies<dim>::misplaced_moments(const Coordinates &forces) const
 {
   constexpr double smallest_turn = 1e-2; // part of a motion
@@ -160,7 +160,7 @@ FreeBodies<dim>::misplaced_moments(const Coordinates &forces) const
       scale = std::min(scale, tolerance(i) * contact_forces[i] / moment);
   for (double &moment : moments)
     moment *= scale;
-  return moments;
+  return {moments, scale};
 }
 
 template <int dim>
@@ -171,19 +171,40 @@ FreeBodies<dim>::subtract(const Coordinates &forces, const Vector &mass, Vector 
 }
 
 template <int dim>
-void
-FreeBodies<dim>::advance(const Vector &du, const Vector &mass, Vector &u) const
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::rigid_part(const Vector &du, const Vector &mass, const Vector *u) const
 {
   Coordinates forces(n_coordinates, 0.); // R^T M du
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
-        const auto modes = motions_of(i, j, &u);
+        const auto modes = motions_of(i, j, u);
         for (unsigned int k = 0; k < bases[i].n(); ++k)
           forces[first[i] + k] += mass(free_unknowns[i][j]) * modes[k] * du(free_unknowns[i][j]);
       }
   dealii::Utilities::MPI::sum(forces, communicator, forces);
-  const Coordinates q = times(inverse_masses(mass, &u), forces);
+  return times(inverse_masses(mass, u), forces);
+}
+
+template <int dim>
+typename FreeBodies<dim>::Vector
+FreeBodies<dim>::strained(const Vector &u, const Vector &u_0, const Vector &mass) const
+{
+  Vector du(u), result(u);
+  du -= u_0;
+  Coordinates q = rigid_part(du, mass, nullptr);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    if (bodies[free_motions[i].body].is_rigid())
+      std::fill_n(q.begin() + first[i], bases[i].n(), 0.);
+  add_small(-1., q, nullptr, nullptr, result);
+  return result;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::advance(const Vector &du, const Vector &mass, Vector &u) const
+{
+  const Coordinates q = rigid_part(du, mass, &u);
   const Vector      start(u);
   u += du;
   add_small(-1., q, &start, nullptr, u);
@@ -192,7 +213,7 @@ FreeBodies<dim>::advance(const Vector &du, const Vector &mass, Vector &u) const
 
 template <int dim>
 void
-FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
+FreeBodies<dim>::add(const Coordinates &motion, Vector &u, const bool infinitesimally) const
 {
   const Vector before(u);
   for (unsigned int i = 0; i < free_motions.size(); ++i)
@@ -208,7 +229,7 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
           double             increment = 0.;
           if (is_rigid)
             increment = q[component];
-          else if (turns_finitely)
+          else if (turns_finitely && !infinitesimally)
             {
               auto x = positions[i][j];
               for (unsigned int d = 0; d < dim; ++d)
@@ -225,12 +246,14 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u) const
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                   \
-  template std::vector<double> FreeBodies<dim>::misplaced_moments(const std::vector<double> &)   \
-    const;                                                                                       \
+  template FreeBodies<dim>::MisplacedMoments FreeBodies<dim>::misplaced_moments(                 \
+    const std::vector<double> &) const;                                                          \
   template void FreeBodies<dim>::subtract(const std::vector<double> &, const Vector &, Vector &) \
     const;                                                                                       \
+  template dealii::TrilinosWrappers::MPI::Vector FreeBodies<dim>::strained(                      \
+    const Vector &, const Vector &, const Vector &) const;                                       \
   template void FreeBodies<dim>::advance(const Vector &, const Vector &, Vector &) const;        \
-  template void FreeBodies<dim>::add(const std::vector<double> &, Vector &) const;
+  template void FreeBodies<dim>::add(const std::vector<double> &, Vector &, const bool) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -324,6 +324,38 @@ TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
     }
 }
 
+TEST(MovingEquilibrium, SecondAttemptTurnsInfinitesimally)
+{
+  StartedStep<2>  step(grid_text("-1.1, -1.1", "1.1, 1.1", "2, 2", 3) + degree_text(1)
+                         + bodies_text({{"disc", ball_text("0.01, 0.02", 0.7)}}),
+                       "neo-Hookean", [](const Point<2> &) { return Tensor<1, 2>(); });
+  Equilibrium<2> &equilibrium = step.equilibrium;
+  Vector          u           = zero_displacement(*step.cut.fields), r(u);
+  equilibrium.set_time(1., u);
+  const auto                 history = step.contact.initial_history();
+  FreeBodies<2>::Coordinates turn    = {0., 0., 0.1}; // the last one: times half the box
+  const auto                 forces  = [&](const bool is_second) {
+    Vector turned(u);
+    equilibrium.free_motions().add(turn, turned, true);
+    equilibrium.set_second_attempt(is_second);
+    equilibrium.residual(turned, history, r);
+    return r.linfty_norm();
+  };
+  // An infinitesimal turn stretches by half its square, but for the bulk of a second attempt.
+  const double in_first = forces(false), in_second = forces(true);
+  std::cout << "forces of an infinitesimal turn: " << in_first << ", in a second attempt "
+            << in_second << std::endl;
+  EXPECT_GT(in_first, 0.1);
+  EXPECT_LT(in_second, 1e-9 * in_first);
+  // It becomes a finite turn by as much.
+  Vector turned(u), finite(u);
+  equilibrium.free_motions().add(turn, turned, true);
+  equilibrium.turn(turned);
+  equilibrium.free_motions().add(turn, finite);
+  finite -= turned;
+  EXPECT_LT(finite.linfty_norm(), 1e-12);
+}
+
 TEST(MovingEquilibrium, MaterialInsideOutIsTold)
 {
   const auto mirrored = [](const Point<2> &x) { return Tensor<1, 2>({2. * x[0], 0.}); };

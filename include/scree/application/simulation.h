@@ -14,6 +14,7 @@
 #include <deal.II/base/timer.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -154,14 +155,14 @@ private:
   typename Equilibrium<dim>::Vector extrapolated(const double time) const;
   bool                              solve_step(const double time);
   /**
-   * Before the first step bodies that overlap find their equilibrium without friction and without
-   * loads, on a moving geometry in parts: then nothing has slipped yet, friction begins with tau =
-   * 0, and the energy that the overlap brought in is external work. Where that fails, or something
-   * is prescribed at t = 0 already, the first step resolves the overlap.
+   * Before the first step bodies that overlap find their equilibrium without friction and loads, on
+   * a moving geometry in parts, where that fails against a drag: friction begins with tau = 0, the
+   * energy of the overlap is external work. If something is prescribed at t = 0 already, or nothing
+   * helps, the first step resolves it.
    */
   void resolve_overlap();
-  /** One part of it, which leaves the overlaps of the pairs times `left`. */
-  bool resolve_part(const std::vector<double> &overlaps, const double left);
+  /** One part, which leaves the overlaps times `left`: the largest motion [L]; empty: it failed. */
+  std::optional<double> resolve_part(const std::vector<double> &overlaps, const double left);
   /**
    * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step, half
    * a cell at a time, until contact holds them; the energy is that of transfer.
@@ -172,10 +173,9 @@ private:
   {
     return geometry_has_moved || step_control.n_accepted() > 0;
   }
-  /** @throws UserError if bodies on a fixed geometry slipped by more than a cell to be without
-   * load. */
-  void         require_no_slide() const;
-  NewtonResult solve_equilibrium(typename Equilibrium<dim>::Vector &u);
+  /** What to tell if bodies on a fixed geometry slipped by more than a cell per nominal step. */
+  std::optional<UserError> slide() const;
+  NewtonResult             solve_equilibrium(typename Equilibrium<dim>::Vector &u);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
    * where that pays. */
   LinearSolveResult solve_linear_system(const LinearSolver::Vector &r, const double tolerance,
@@ -237,8 +237,8 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
-  bool holds_moments = false; //!< in the step being solved, which failed before
-  bool is_too_large  = false; //!< the solution of the step, for the moving geometry
+  bool is_second_attempt = false; //!< in the step being solved, which failed before
+  bool is_too_large      = false; //!< the solution of the step, for the moving geometry
   std::set<std::pair<unsigned int, unsigned int>>
     warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
                   //!< (b, a) with b > a: under-resolved

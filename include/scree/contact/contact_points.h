@@ -79,16 +79,16 @@ public:
    * Whether points that touch without pressure, gaps from 0 to 1e-8 h, count as closed in the
    * tangent: so a body that touches without load is held before anything has moved.
    */
-  void set_touching_holds(const bool holds)
-  {
-    touching_holds = holds;
-  }
+  void set_touching_holds(const bool holds);
 
   /**
    * Resolves initial overlap: no friction until the next call, but what is tied stays tied, and the
    * gaps of each pair are larger by its allowance [L]. Empty: friction again, and no allowance.
    */
   void resolve_overlap(const std::vector<double> &allowances);
+
+  /** Whether what obeys Coulomb's law sticks for a while, whatever its pressure. */
+  void set_sticks(const bool sticks);
 
   /**
    * Keeps the bounds mu p of the last evaluation for the next ones, or lets them follow the
@@ -230,6 +230,7 @@ private:
   std::vector<double>                 pair_modulus;    //!< E = 2/(1/E_a + 1/E_b)
   std::vector<double>                 pair_allowances; //!< while overlap is resolved
   bool                                touching_holds = true;
+  bool                                all_stick      = false;
   std::vector<double>                 frozen_limits, frozen_closed_parts; //!< empty: not frozen
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;

@@ -33,9 +33,6 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  /** Of bodies whose moments are held, see FreeBodies::misplaced_moments(). */
-  static constexpr double held_mass_factor = 1e-3;
-
   Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
 
@@ -89,36 +86,31 @@ public:
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
-
   /**
    * Shortens the increment `du` of the last residual() such that no body that nothing holds moves
    * farther than `length`: the artificial mass alone would send it anywhere (collective).
    */
   void shorten(Vector &du, const double length) const;
-
   /** Sets the artificial mass in the tangent, `factor` E/L^2 per volume, L half the body's size. */
   void set_artificial_mass(const double factor);
-
+  /** Free bodies move against `factor` times that mass times u less the accepted one. */
+  void set_drag(const double factor);
   /** du . M du with the artificial mass M (collective). */
   double artificial_work(const Vector &du) const;
-
-  /** u += du, where free bodies turn without strain, see FreeBodies::advance() (collective). */
+  /** u += du, or FreeBodies::advance() where free bodies turn finitely (collective). */
   void advance(const Vector &du, Vector &u) const;
 
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
-
   /** The |r| that round-off in A u (moving geometry: A x) leaves at the last residual(). */
   double round_off() const;
-
   /** The rigid motions for the near null space, see near_null_space(). */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &free_bodies() const;
-  /** Free bodies, and what supports and the contact of the last residual() leave to them. */
+  /** What supports and the contact of the last residual() leave to them. */
   const FreeBodies<dim> &free_motions() const;
-
   /**
    * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
    * their loads, of that of all |f_b| over a cell; empty: they stay.
@@ -134,16 +126,21 @@ public:
 
   bool has_free_rigid_bodies() const;
 
-  /** Whether residual() leaves out FreeBodies::misplaced_moments(). */
-  void set_moments_held(const bool is_held);
+  /**
+   * How a step on a moving geometry is tried again: residual() leaves out
+   * FreeBodies::misplaced_moments(), and free bodies turn infinitesimally. Contact sees u, so that
+   * gaps are linear in rigid motions, the bulk FreeBodies::strained(u).
+   */
+  void set_second_attempt(const bool is_second);
+  /** Then makes the rigid motions of u finite ones (collective). */
+  void turn(Vector &u) const;
 
   /** Moment on a body that residual() left out, over half the size of the body [force]. */
   double held_moment(const unsigned int body) const;
-
   /** Whether tangents change by contact alone. */
-  bool is_linear_but_for_contact() const;
-
-  const RigidBodies<dim> &rigid_bodies() const;
+  bool                       is_linear_but_for_contact() const;
+  const RigidBodies<dim>    &rigid_bodies() const;
+  const StrongSupports<dim> &strong_supports() const;
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -167,12 +164,11 @@ public:
   /** Energies of the accepted state. */
   const Energies &energies() const;
 
-  const StrongSupports<dim> &strong_supports() const;
-
 private:
   void                                  set_up_matrices();
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
+  bool                                  turns_infinitesimally() const;
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void         hold_moments(Vector &r);
   void         set_zero_on_prescribed(Vector &r) const;
@@ -215,14 +211,18 @@ private:
   Vector applied_forces;  //!< on rigid bodies at the last residual()
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
+  Vector strained_u;      //!< what the bulk sees of u in the last residual()
+  Vector strained;        //!< the same with ghosts
   dealii::IndexSet    ghosted_dofs;
-  double              time             = 0.;
-  double              accepted_time    = 0.;
-  bool                is_unloaded      = true; //!< nothing was prescribed at the accepted state
-  bool                is_driven        = true; //!< forces act on rigid bodies
-  double              start_time       = 0.;   //!< of the step on a moving geometry
-  double              mass_factor      = default_mass_factor;
-  bool                are_moments_held = false;
+  double              time              = 0.;
+  double              accepted_time     = 0.;
+  bool                is_unloaded       = true; //!< nothing was prescribed at the accepted state
+  bool                is_driven         = true; //!< forces act on rigid bodies
+  double              start_time        = 0.;   //!< of the step on a moving geometry
+  double              drag              = 0.;
+  double              mass_factor       = default_mass_factor;
+  bool                is_second_attempt = false;
+  bool                are_moments_whole = false;         //!< held moments, not scaled down
   std::vector<double> held_moments;                      //!< of the last residual(), by body
   double              largest_stiffness = 0.;            //!< largest diagonal entry of A
   Vector              diagonal;                          //!< of A

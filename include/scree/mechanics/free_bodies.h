@@ -48,6 +48,13 @@ public:
   using Coordinates = std::vector<double>;
   using Vector      = dealii::TrilinosWrappers::MPI::Vector;
 
+  /** See misplaced_moments(). */
+  struct MisplacedMoments
+  {
+    Coordinates moments;     //!< empty: there are none
+    double      factor = 1.; //!< they were scaled by
+  };
+
   FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
              const StrongSupports<dim> &supports, const BoundaryTerms<dim> &boundary_terms,
              const ContactPoints<dim> &contact, const bool turns_finitely);
@@ -74,7 +81,7 @@ public:
    * up to half a spacing beside where contact should act, so that M of a body is at most h/4 times
    * the sum of the contact forces on it; larger ones are scaled down together (collective).
    */
-  Coordinates misplaced_moments(const Coordinates &forces) const;
+  MisplacedMoments misplaced_moments(const Coordinates &forces) const;
 
   /** Length of what acts on a free body. */
   double magnitude(const Coordinates &forces, const unsigned int free_body) const;
@@ -122,9 +129,15 @@ public:
 
   /**
    * Adds a motion to the displacement (without ghosts). On a moving geometry deformable bodies turn
-   * without strain, from where `u` has brought them.
+   * without strain, from where `u` has brought them, unless they turn infinitesimally.
    */
-  void add(const Coordinates &motion, Vector &u) const;
+  void add(const Coordinates &motion, Vector &u, const bool infinitesimally = false) const;
+
+  /**
+   * u without the infinitesimal rigid motions of deformable bodies that are nearest to u - u_0 in
+   * the norm of the diagonal mass (collective).
+   */
+  Vector strained(const Vector &u, const Vector &u_0, const Vector &mass) const;
 
   /**
    * On a moving geometry, adds du to u, its rigid part, nearest in the norm of the diagonal mass,
@@ -168,6 +181,8 @@ private:
    * from the start of the step. */
   std::array<double, Motions::n_motions> motions_of(const unsigned int free_body,
                                                     const unsigned int j, const Vector *u) const;
+  /** q of the R q nearest to du in the norm of the mass, R the motions_of() (collective). */
+  Coordinates rigid_part(const Vector &du, const Vector &mass, const Vector *u) const;
   /** (R^T M R)^-1 of each free body, R its motions_of() (collective). */
   std::vector<dealii::FullMatrix<double>> inverse_masses(const Vector &mass, const Vector *u) const;
   /** Body by body. */
