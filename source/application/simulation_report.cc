@@ -163,7 +163,9 @@ Simulation<dim>::report_under_resolved()
   if (!names.empty())
     log.line("Warning: under-resolved contact, closed at less than "
              + std::to_string(dim == 2 ? 3 : 9) + " points: " + names
-             + ". Its force follows from balance, its pressure and stiffness from the grid; "
+             + ". What loads press has the right force; gap, pressure and stiffness, and the force "
+               "of what "
+               "is moved, come from the grid; "
                "refine there (Grid/Refinement = contact, Finest level)");
 }
 
