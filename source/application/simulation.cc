@@ -230,7 +230,7 @@ Simulation<dim>::run()
           start_step();
         }
     }
-  report_end(wall.wall_time());
+  report_end();
 }
 
 template <int dim>

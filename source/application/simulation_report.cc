@@ -147,7 +147,7 @@ Simulation<dim>::report_step(const double wall_time)
   log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time) + ": "
            + std::to_string(record.newton_iterations) + " iterations, residual "
            + short_number(record.residual) + ", open/stick/slip " + short_number(open) + "/"
-           + short_number(stick) + "/" + short_number(slip) + ", " + short_duration(wall_time)
+           + short_number(stick) + "/" + short_number(slip) + ", " + short_duration(timings.total())
            + ", left " + short_duration(left) + ", " + resident_memory());
   log.progress(done, "left " + short_duration(left));
 }
@@ -171,7 +171,7 @@ Simulation<dim>::report_under_resolved()
 
 template <int dim>
 void
-Simulation<dim>::report_end(const double wall_time)
+Simulation<dim>::report_end()
 {
   require(results->flush(), directory,
           "rows of history.csv or probes.csv could not be written to the last",
@@ -182,7 +182,7 @@ Simulation<dim>::report_end(const double wall_time)
   if (n_checkpoints > 0)
     log.line("Checkpoints: " + std::to_string(n_checkpoints) + ", the last of "
              + short_number(1e-6 * checkpoint_bytes) + " MB");
-  log.line("Finished in " + short_duration(wall_time) + " with "
+  log.line("Finished in " + short_duration(timings.total()) + " with "
            + std::to_string(step_control.n_rejected())
            + " rejected step(s). Results: " + directory);
 }
@@ -284,7 +284,7 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   template void Simulation<dim>::plot() const;                                                    \
   template void Simulation<dim>::report_step(const double);                                       \
   template void Simulation<dim>::report_under_resolved();                                         \
-  template void Simulation<dim>::report_end(const double);                                        \
+  template void Simulation<dim>::report_end();                                                    \
   template void Simulation<dim>::throw_slides_away(const typename FreeBodies<dim>::Coordinates &, \
                                                    const double);                                 \
   template void Simulation<dim>::tell_what_is_loose();                                            \

@@ -75,7 +75,7 @@ CsvTable::~CsvTable()
 void
 CsvTable::add_row(const std::vector<double> &values)
 {
-  AssertDimension(values.size(), n_columns);
+  AssertThrow(values.size() == n_columns, dealii::ExcDimensionMismatch(values.size(), n_columns));
   std::ostringstream row;
   row << std::setprecision(12);
   for (std::size_t i = 0; i < values.size(); ++i)

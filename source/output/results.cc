@@ -223,7 +223,8 @@ template <int dim>
 void
 Results<dim>::write_history()
 {
-  AssertDimension(history_row.size(), history_names.size());
+  AssertThrow(history_row.size() == history_names.size(),
+              dealii::ExcDimensionMismatch(history_row.size(), history_names.size()));
   // Only a pair without contact points has no gap.
   for (unsigned int i = 0; i < history_row.size(); ++i)
     require(std::isfinite(history_row[i]) || ends_with(history_names[i], ".minimum_gap"),

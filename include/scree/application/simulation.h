@@ -183,7 +183,7 @@ private:
   void              report_step(const double wall_time);
   /** Tells of contacts at very few points, once per pair. */
   void report_under_resolved();
-  void report_end(const double wall_time);
+  void report_end();
   /**
    * What of the loads of `time` on free bodies no contact can balance, a part of the loads, and the
    * motion they drive, see FreeBodies::unbalanced(); geometry and contact of the start of the step.

@@ -33,6 +33,12 @@ public:
     Clock::time_point start;
   };
 
+  /** Seconds since this object was made. */
+  double total() const
+  {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
   /** Seconds by part. */
   const std::map<std::string, double> &parts() const
   {
@@ -40,6 +46,7 @@ public:
   }
 
 private:
+  const Clock::time_point       start = Clock::now();
   std::map<std::string, double> seconds;
 };
 } // namespace scree
