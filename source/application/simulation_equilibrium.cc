@@ -228,13 +228,25 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   if (is_lost())
     {
       // Friction may hold what sticks at first.
-      u = start;
+      const NewtonResult lost = result;
+      const Vector       u_lost(u);
+      const double       pressed_lost = pressed;
+      u                               = start;
       contact->set_sticks(true);
       const unsigned int n_before
         = result.iterations + Newton(parameters.newton, hooks).solve(u).iterations;
       contact->set_sticks(false);
       result = Newton(parameters.newton, hooks).solve(u);
       result.iterations += n_before;
+      if (!result.converged())
+        {
+          result            = lost;
+          result.iterations = n_before;
+          u                 = u_lost;
+          pressed           = pressed_lost;
+          Vector r(u);
+          hooks.residual(u, r);
+        }
     }
   if (is_lost())
     {

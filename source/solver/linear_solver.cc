@@ -98,8 +98,10 @@ LinearSolverParameters::declare(const ParameterSection &section)
                 "direct, iterative, or automatic: direct up to the numbers of unknowns below.");
   section.entry("Direct up to (2D)", direct_up_to_2d,
                 "Unknowns up to which automatic means direct in two dimensions.");
-  section.entry("Direct up to (3D)", direct_up_to_3d,
-                "Unknowns up to which automatic means direct in three dimensions.");
+  section.entry(
+    "Direct up to (3D)", direct_up_to_3d,
+    "Unknowns up to which automatic means direct in three dimensions; six times as many "
+    "of degree 2, whose multigrid is slow.");
   section.entry("Direct package", direct_package, package_names,
                 "Direct solver. automatic: KLU for small systems on one process, else MUMPS.");
   section.entry(
@@ -281,6 +283,7 @@ LinearSolver::LinearSolver(const LinearSolverParameters &parameters, const unsig
                            const unsigned int degree)
     : parameters(parameters)
     , dimension(dimension)
+    , degree(degree)
     , smooth_by_ilu(parameters.amg_smoother == MultigridSmoother::ilu
                     || (parameters.amg_smoother == MultigridSmoother::automatic && degree > 1))
 {
@@ -305,7 +308,8 @@ LinearSolver::is_direct(const std::size_t n_unknowns) const
 {
   if (parameters.type != LinearSolverType::automatic)
     return parameters.type == LinearSolverType::direct;
-  return n_unknowns <= (dimension == 2 ? parameters.direct_up_to_2d : parameters.direct_up_to_3d);
+  const std::size_t up_to_3d = (degree == 1 ? 1 : 6) * std::size_t(parameters.direct_up_to_3d);
+  return n_unknowns <= (dimension == 2 ? parameters.direct_up_to_2d : up_to_3d);
 }
 
 LinearSolveResult

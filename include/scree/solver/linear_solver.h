@@ -60,9 +60,10 @@ struct LinearSolverParameters
 {
   LinearSolverType type = LinearSolverType::automatic;
 
-  /** Unknowns up to which `automatic` solves directly in two and in three dimensions. */
+  /** Unknowns up to which `automatic` solves directly in two and in three dimensions, there six
+   * times as many of degree 2, whose multigrid is slow. */
   unsigned int direct_up_to_2d = 300000;
-  unsigned int direct_up_to_3d = 60000;
+  unsigned int direct_up_to_3d = 10000;
 
   DirectPackage direct_package = DirectPackage::automatic;
 
@@ -187,6 +188,7 @@ private:
 
   LinearSolverParameters         parameters;
   unsigned int                   dimension;
+  unsigned int                   degree;
   bool                           smooth_by_ilu;
   unsigned int                   n_border = 0;
   std::vector<Vector>            near_null_space;
