@@ -6,6 +6,11 @@ ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 600  # seconds for a run
 
 
+def shipped():
+    """The inputs for users."""
+    return sorted((ROOT / "prm").rglob("*.prm"))
+
+
 class Check:
     """What a .check file says."""
 

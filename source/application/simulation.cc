@@ -210,7 +210,7 @@ Simulation<dim>::run()
           require_equilibrium_exists();
           if (!is_second_attempt && is_moving() && !equilibrium->free_bodies().empty())
             {
-              // A second time, after a fall and with moments held.
+              // A second time, after a fall, see Equilibrium::set_second_attempt().
               settle();
               is_second_attempt = true;
               continue;

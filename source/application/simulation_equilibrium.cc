@@ -221,32 +221,32 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
                  "step " + std::to_string(record.step) + ", " + text);
   };
   const Vector start(u);
-  NewtonResult result  = Newton(parameters.newton, hooks).solve(u);
+  const Newton newton(parameters.newton, hooks);
+  NewtonResult result  = newton.solve(u);
   const auto   is_lost = [&]() { // in a step, not in a part of the overlap
     return record.step > 0 && result.converged() && pressed < 1e-6 * most_pressed;
   };
   if (is_lost())
     {
       // Friction may hold what sticks at first.
-      const NewtonResult lost = result;
-      const Vector       u_lost(u);
-      const double       pressed_lost = pressed;
-      u                               = start;
+      Vector       v(start);
+      const double pressed_before = pressed;
       contact->set_sticks(true);
-      const unsigned int n_before
-        = result.iterations + Newton(parameters.newton, hooks).solve(u).iterations;
+      const unsigned int n_sticking = newton.solve(v).iterations;
       contact->set_sticks(false);
-      result = Newton(parameters.newton, hooks).solve(u);
-      result.iterations += n_before;
-      if (!result.converged())
+      const NewtonResult again        = newton.solve(v);
+      const unsigned int n_iterations = result.iterations + n_sticking + again.iterations;
+      if (again.converged())
         {
-          result            = lost;
-          result.iterations = n_before;
-          u                 = u_lost;
-          pressed           = pressed_lost;
-          Vector r(u);
-          hooks.residual(u, r);
+          u      = v;
+          result = again;
         }
+      else
+        {
+          pressed = pressed_before;
+          hooks.residual(u, v);
+        }
+      result.iterations = n_iterations;
     }
   if (is_lost())
     {
@@ -316,8 +316,8 @@ Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double 
   double largest_motion = 0.;
   if (is_solved)
     {
-      for (const double motion : equilibrium->largest_displacements(u))
-        largest_motion = std::max(largest_motion, motion);
+      const auto motions = equilibrium->largest_displacements(u);
+      largest_motion     = *std::max_element(motions.begin(), motions.end());
       equilibrium->accept(u, state.contact);
       equilibrium->count_overlap();
       state.displacement = u;

@@ -164,9 +164,8 @@ Simulation<dim>::report_under_resolved()
     log.line("Warning: under-resolved contact, closed at less than "
              + std::to_string(dim == 2 ? 3 : 9) + " points: " + names
              + ". What loads press has the right force; gap, pressure and stiffness, and the force "
-               "of what "
-               "is moved, come from the grid; "
-               "refine there (Grid/Refinement = contact, Finest level)");
+               "of what is moved, come from the grid; refine there (Grid/Refinement = contact, "
+               "Finest level)");
 }
 
 template <int dim>

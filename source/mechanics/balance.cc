@@ -124,8 +124,8 @@ Equilibrium<dim>::balance(const Vector &u) const
     }
   for (const auto &region : boundary_terms.regions())
     for (unsigned int q = 0; q < region.points.size(); ++q)
-      sums[region.body].scale
-        += region.points[q].weight * boundary_terms.traction(region, q, strained, time).norm();
+      sums[region.body].scale += region.points[q].weight
+                                 * boundary_terms.traction(region, q, seen_by_bulk(), time).norm();
   for (const auto &unknown : supports.unknowns())
     sums[supports.conditions()[unknown.support].first].scale += std::abs(held(unknown.index));
   sum_over_processes(sums, fields.grid.communicator());
@@ -134,7 +134,7 @@ Equilibrium<dim>::balance(const Vector &u) const
     sums[body].force += resultant.force;
     sums[body].moment += resultant.moment;
   };
-  const auto of_regions = boundary_terms.resultants(strained, time);
+  const auto of_regions = boundary_terms.resultants(seen_by_bulk(), time);
   for (unsigned int i = 0; i < of_regions.size(); ++i)
     add(boundary_terms.regions()[i].body, of_regions[i]);
   const auto of_supports = supports.resultants(held);

@@ -35,7 +35,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
         &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
-  strained.reinit(fields.owned(), ghosted_dofs, communicator);
+  strained.reinit(ghosted);
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
@@ -180,9 +180,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     ghosted = u;
   else
     ghosted = with_ghosts(u);
-  strained_u = turns_infinitesimally() ? free.strained(u, accepted_u, artificial_mass) : u;
-  strained   = turns_infinitesimally() ? with_ghosts(strained_u) : ghosted;
-  scratch    = u;
+  scratch = u;
   scratch.scale(diagonal);
   stiffness_times_displacement = scratch.l2_norm();
   contact.evaluate(ghosted, history);
@@ -193,12 +191,19 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     rigid.applied(ghosted, time, applied_forces);
   else
     applied_forces = 0.;
-  stiffness.vmult(internal_forces, strained_u);
+  if (turns_infinitesimally())
+    {
+      const Vector v = free.strained(u, accepted_u, artificial_mass);
+      strained       = with_ghosts(v);
+      stiffness.vmult(internal_forces, v);
+    }
+  else
+    stiffness.vmult(internal_forces, u);
   if (!is_linear_but_for_contact())
     {
       internal_forces += start_forces;
-      bulk.add_internal_forces(strained, internal_forces);
-      boundary_terms.add_internal_forces(strained, time, internal_forces);
+      bulk.add_internal_forces(seen_by_bulk(), internal_forces);
+      boundary_terms.add_internal_forces(seen_by_bulk(), time, internal_forces);
       internal_forces.compress(dealii::VectorOperation::add);
     }
   r = loads;
@@ -225,8 +230,8 @@ const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
-  bulk.add_tangent(strained, newton_matrix);
-  boundary_terms.add_tangent(strained, time, newton_matrix);
+  bulk.add_tangent(seen_by_bulk(), newton_matrix);
+  boundary_terms.add_tangent(seen_by_bulk(), time, newton_matrix);
   contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
   add_artificial_mass(newton_matrix);
@@ -340,7 +345,7 @@ Equilibrium<dim>::force_scale() const
     if (region.condition->parameters.type == ConditionType::displacement)
       for (unsigned int q = 0; q < region.points.size(); ++q)
         held += std::pow(region.points[q].weight, 2)
-                * boundary_terms.traction(region, q, strained, time).norm_square();
+                * boundary_terms.traction(region, q, seen_by_bulk(), time).norm_square();
   squares += dealii::Utilities::MPI::sum(held, fields.grid.communicator());
   return std::sqrt(squares);
 }

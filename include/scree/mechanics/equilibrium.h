@@ -125,7 +125,6 @@ public:
   typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
   bool has_free_rigid_bodies() const;
-
   /**
    * How a step on a moving geometry is tried again: residual() leaves out
    * FreeBodies::misplaced_moments(), and free bodies turn infinitesimally. Contact sees u, so that
@@ -169,6 +168,8 @@ private:
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
   bool                                  turns_infinitesimally() const;
+  /** What the bulk sees of u at the last residual(), with ghosts. */
+  const Vector &seen_by_bulk() const;
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void         hold_moments(Vector &r);
   void         set_zero_on_prescribed(Vector &r) const;
@@ -211,8 +212,7 @@ private:
   Vector applied_forces;  //!< on rigid bodies at the last residual()
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
-  Vector strained_u;      //!< what the bulk sees of u in the last residual()
-  Vector strained;        //!< the same with ghosts
+  Vector strained;        //!< what the bulk sees of it where free bodies turn infinitesimally
   dealii::IndexSet    ghosted_dofs;
   double              time              = 0.;
   double              accepted_time     = 0.;
