@@ -30,7 +30,7 @@ struct ErrorEstimate
 
 /**
  * A run: sets the bodies up on their grid, walks through the load steps, writes what happens.
- * The members are the modules, the steps those of method.md section 3.
+ * The members are the modules, the steps those of theory.md section 3.
  */
 template <int dim>
 class Simulation

@@ -33,7 +33,7 @@ enum class DisplacementMethod
 {
   /** strong on box faces, Nitsche on the cut surface */
   automatic,
-  /** symmetric Nitsche, method.md section 7 */
+  /** symmetric Nitsche, theory.md section 7 */
   nitsche,
   /** Nitsche with the adjoint term of opposite sign */
   nonsymmetric_nitsche,

@@ -70,7 +70,7 @@ struct ContactResponse
 };
 
 /**
- * Penalty contact with Coulomb friction as perfect plasticity (method.md section 8; Kikuchi & Oden
+ * Penalty contact with Coulomb friction as perfect plasticity (theory.md section 8; Kikuchi & Oden
  * 1988). With g = g_0 + n.[[u]], p = eps_n <-g>, P = I - n n^T and the trial traction
  * tau_t = tau_n - eps_t f P ([[u]] - [[u]]_n): stick if |tau_t| <= mu p, else tau = mu p s with
  * s = tau_t / |tau_t|. The tangent is consistent:

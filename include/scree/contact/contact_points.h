@@ -21,7 +21,7 @@ namespace scree
 /**
  * The unbiased contact surface S = {phi_a = phi_b <= shift} of every candidate pair, cut from the
  * background cells, as a flat list of points with the stencil of their displacement jump
- * [[u]] = sum_i w_i u(node_i) (method.md section 8). A process holds the points of its cells.
+ * [[u]] = sum_i w_i u(node_i) (theory.md section 8). A process holds the points of its cells.
  *
  * A rigid body moves its side of a point by its pose q: the unknowns of the free components take
  * the place of the nodes, with the derivatives of a finite rotation. The motion counts from the

@@ -48,7 +48,7 @@ struct ContactPoint
 
 /**
  * The unbiased contact surface S = {phi_a = phi_b <= shift} of all pairs, cut from the background
- * cells of this process (method.md section 8).
+ * cells of this process (theory.md section 8).
  *
  * @param shift bound on phi on the contact surface [L]
  * @param nodal_normals interpolates normals away from edges and corners from gradients at the

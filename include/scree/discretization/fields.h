@@ -45,7 +45,7 @@ unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
  * neighbours intersect. All fields form one numbering: the unknowns of a process are contiguous,
  * field after field; the dim components of a node are contiguous too, so that a node is named by
  * its first unknown; the components of rigid bodies come last, then multipliers: the trailing
- * unknowns, all on the last process (method.md section 5).
+ * unknowns, all on the last process (theory.md section 5).
  */
 template <int dim>
 class Fields

@@ -19,9 +19,9 @@ struct GhostFace
 };
 
 /**
- * The ghost penalty s_h(w, v) = gamma (2 mu + lambda) sum_F sum_j c_j int_F h^(2j-1) [d_n^j
+ * The ghost penalty without its stiffness, s_h(w, v) = sum_F sum_j c_j int_F h^(2j-1) [d_n^j
  * w].[d_n^j v] over the faces of cut cells, j = 1..k, c_1 = 1, c_2 = 1/4, h the edge of the finer
- * cell (Burman 2010; method.md section 7). It makes condition numbers independent of the cut.
+ * cell (Burman 2010; theory.md section 6). It makes condition numbers independent of the cut.
  */
 template <int dim>
 class GhostPenalty
@@ -36,8 +36,8 @@ public:
   }
 
   /**
-   * The matrix of a face for one displacement component and gamma (2 mu + lambda) = 1; first the
-   * nodes of the cell, then those of the neighbour.
+   * The matrix of a face for one displacement component; first the nodes of the cell, then those
+   * of the neighbour.
    */
   dealii::FullMatrix<double> matrix(const GhostFace &face);
 

@@ -11,7 +11,7 @@ namespace scree
 /**
  * Level sets as the finite element functions of degree k that quadrature and gaps use: nodal values
  * per cell, taken from a lattice at the cell's support points; hanging nodes are interpolated from
- * the coarser neighbour, so that contours stay closed (method.md section 4).
+ * the coarser neighbour, so that contours stay closed (theory.md section 4).
  */
 template <int dim>
 class LevelSetNodes

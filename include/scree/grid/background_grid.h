@@ -75,7 +75,7 @@ struct GridCell
 /**
  * The p4est background grid: a box of cubes, 2:1 balanced, with a flat list of this process's cells
  * and a replicated map of all active cells, sorted along the Morton curve, that finds the cell and
- * the process of any point (method.md section 5, far cells).
+ * the process of any point (theory.md section 5).
  */
 template <int dim>
 class BackgroundGrid

@@ -10,7 +10,7 @@ namespace scree
 {
 /**
  * All boundary conditions that are integrals over a region: tractions, pressures, springs,
- * displacements by Nitsche or penalty, mean supports (method.md section 7).
+ * displacements by Nitsche or penalty, mean supports (theory.md section 7).
  *
  * On a fixed geometry all of them are linear in u. On a moving one u is the increment since the
  * start of the step, conditions act on u_n + u; tractions are forces per reference area, pressures

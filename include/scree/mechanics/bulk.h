@@ -26,7 +26,7 @@ struct BulkSample
 
 /**
  * The bulk on cut cells: int sigma(u) : grad v over the physical part, plus the ghost penalty
- * gamma (2 mu + min(lambda, 4 mu)) rho s_h(u, v) (method.md section 7), rho the squared
+ * gamma (2 mu + min(lambda, 4 mu)) rho s_h(u, v) (theory.md section 6), rho the squared
  * secant ratio of plastic flow, at least 1e-3. The volume change that the materials see is
  * projected on VolumeModes of each cell.
  *

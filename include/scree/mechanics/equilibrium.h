@@ -16,7 +16,7 @@ namespace scree
 /**
  * The discrete equilibrium r(u) = f(t) - A u - R(u) - R_contact(u) = 0 of all bodies and its
  * tangent K = A + dR/du + dR_contact/du. A is linear and assembled once; prescribed unknowns are
- * kept in u and eliminated from K, so that the terms also give their reactions (method.md sections
+ * kept in u and eliminated from K, so that the terms also give their reactions (theory.md sections
  * 3, 7, 8). Rigid bodies have rows without A, their loads f depend on the pose.
  *
  * On a fixed geometry u is the total displacement, A holds bulk, ghost penalty, Nitsche, springs

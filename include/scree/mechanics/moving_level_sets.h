@@ -41,7 +41,7 @@ void require_movable(const std::vector<Body<dim>> &bodies);
 
 /**
  * Moves the level sets, lattices and boxes of the deformable bodies by the increment
- * `x = X + du(X)` (method.md, moving level sets): du at the lattice nodes in the body's cells,
+ * `x = X + du(X)` (theory.md, moving level sets): du at the lattice nodes in the body's cells,
  * linear extension, advection, removal of islands, reinitialisation, a lattice that follows the
  * body. Everything is done on all nodes of the lattices, on every process.
  *

@@ -21,7 +21,7 @@ struct RigidBodyState
 /**
  * The rows of the rigid bodies in the equilibrium: applied forces and moments of free components,
  * against the generalised contact forces that ContactPoints adds; prescribed components are kept in
- * u and eliminated like supports (method.md sections 5 and 7). Rotations are unknown as arcs at the
+ * u and eliminated like supports (theory.md section 5). Rotations are unknown as arcs at the
  * body's radius, so that all rows are forces.
  */
 template <int dim>

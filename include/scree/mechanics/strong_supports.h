@@ -20,7 +20,7 @@ struct PrescribedUnknown
 
 /**
  * Displacements imposed on unknowns: of the nodes on a face of the background box, and of single
- * vertices (method.md section 5, box faces and supports). On a moving geometry the unknowns are
+ * vertices (theory.md section 5, box faces and supports). On a moving geometry the unknowns are
  * increments, the formulas see the reference positions, and neither motions normal to a face nor
  * those of vertices are possible, since box and grid stay.
  */

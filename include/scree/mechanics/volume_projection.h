@@ -12,7 +12,7 @@ namespace scree
  * Polynomials of degree k - 1 on the physical part of a cell, orthonormal for its quadrature: the
  * constant for degree 1, up to dim + 1 linear ones for degree 2. The volume change of the cell is
  * projected on them, so that nearly incompressible materials and isochoric flow do not lock (Q1/P0
- * and Q2/P-1; Simo, Taylor, Pister 1985; method.md, Volume changes).
+ * and Q2/P-1; Simo, Taylor, Pister 1985; theory.md, Volume changes).
  */
 template <int dim>
 struct VolumeModes

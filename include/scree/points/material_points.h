@@ -26,7 +26,7 @@ struct PointTotals
 
 /**
  * The material points of all bodies on this process: the history of the material and where it is
- * (method.md section 9). One array per quantity, point i at entry i of each. A copy is what a
+ * (theory.md section 9). One array per quantity, point i at entry i of each. A copy is what a
  * rollback needs, serialize() what a checkpoint needs.
  */
 template <int dim>

@@ -6,7 +6,7 @@
 
 namespace scree
 {
-/** Choices of the moving least squares; method.md section 9. */
+/** Choices of the moving least squares; theory.md section 9. */
 struct MovingLeastSquaresOptions
 {
   unsigned int degree       = 1;     //!< of the polynomials that are reproduced: 0, 1 or 2

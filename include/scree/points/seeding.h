@@ -7,7 +7,7 @@ namespace scree
 {
 /**
  * Places material points in the active cells of this process, undeformed, with volumes that sum to
- * the cut quadrature's volume of the body in every cell (method.md section 9).
+ * the cut quadrature's volume of the body in every cell (theory.md section 9).
  */
 template <int dim>
 class PointSeeding
