@@ -1,6 +1,7 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
+#include <scree/bodies/broad_phase.h>
 #include <scree/contact/contact_reach.h>
 
 #include <deal.II/base/mpi.h>
@@ -163,7 +164,7 @@ Simulation<dim>::find_pairs() const
                                        + grid->box().side_length(dim - 1)
                                    : 2. * parameters.contact.shift * grid->finest_size();
   std::vector<ContactPair> pairs;
-  for (const auto &[a, b] : candidate_pairs(bodies, reach))
+  for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
     {
       const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
       const auto is_driven

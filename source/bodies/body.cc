@@ -4,10 +4,7 @@
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/parameters/expression_entry.h>
 
-#include <deal.II/boost_adaptors/bounding_box.h>
-
 #include <algorithm>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 
 namespace scree
@@ -208,31 +205,6 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
   return bodies;
 }
 
-template <int dim>
-std::vector<std::pair<unsigned int, unsigned int>>
-candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach)
-{
-  namespace bgi = boost::geometry::index;
-  using Entry   = std::pair<dealii::BoundingBox<dim>, unsigned int>;
-  std::vector<Entry> entries;
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    entries.emplace_back(bodies[b].box, b);
-  const bgi::rtree<Entry, bgi::linear<16>>           tree(entries);
-  std::vector<std::pair<unsigned int, unsigned int>> pairs;
-  for (const auto &[box, a] : entries)
-    {
-      dealii::BoundingBox<dim> enlarged(box);
-      enlarged.extend(reach);
-      std::vector<Entry> found;
-      tree.query(bgi::intersects(enlarged), std::back_inserter(found));
-      for (const auto &entry : found)
-        if (a < entry.second)
-          pairs.emplace_back(a, entry.second);
-    }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template struct BodyParameters<dim>;                                                             \
   template struct Body<dim>;                                                                       \
@@ -245,9 +217,7 @@ candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach)
   template std::vector<Body<dim>>           make_bodies(                                           \
               const std::vector<BodyParameters<dim>> &,                                            \
               const std::map<std::string, std::shared_ptr<const Material<dim>>> &,                 \
-              const LatticeFrame<dim> &, const double);                                            \
-  template std::vector<std::pair<unsigned int, unsigned int>> candidate_pairs(                     \
-    const std::vector<Body<dim>> &, const double);
+              const LatticeFrame<dim> &, const double);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -1,10 +1,12 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/log.h>
+#include <scree/bodies/broad_phase.h>
 #include <scree/contact/contact_reach.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <set>
 
 namespace scree
 {
@@ -29,20 +31,21 @@ std::vector<std::pair<unsigned int, unsigned int>>
 pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                         const ContactParameters &parameters, const std::vector<double> &motion)
 {
+  std::set<std::pair<unsigned int, unsigned int>> watched;
+  for (const ContactPair &pair : pairs)
+    watched.insert({pair.a, pair.b});
+  std::vector<dealii::BoundingBox<dim>> reached;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      reached.push_back(bodies[b].box);
+      reached.back().extend(motion[b]);
+    }
   std::vector<std::pair<unsigned int, unsigned int>> result;
-  for (unsigned int a = 0; a < bodies.size(); ++a)
-    for (unsigned int b = a + 1; b < bodies.size(); ++b)
-      {
-        dealii::BoundingBox<dim> reached(bodies[a].box);
-        reached.extend(motion[a] + motion[b]);
-        const bool is_watched
-          = std::any_of(pairs.begin(), pairs.end(),
-                        [&](const ContactPair &pair) { return pair.a == a && pair.b == b; });
-        if (!is_watched
-            && reached.get_neighbor_type(bodies[b].box) != dealii::NeighborType::not_neighbors
-            && parameters.law_of(bodies[a].name, bodies[b].name).law != ContactLaw::none)
-          result.emplace_back(a, b);
-      }
+  for (const auto &pair : BodyBoxes<dim>(reached).pairs(0.))
+    if (watched.count(pair) == 0
+        && parameters.law_of(bodies[pair.first].name, bodies[pair.second].name).law
+             != ContactLaw::none)
+      result.push_back(pair);
   return result;
 }
 

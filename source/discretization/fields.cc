@@ -1,4 +1,5 @@
 #include <scree/discretization/fields.h>
+#include <scree/grid/cell_bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -14,6 +15,17 @@
 
 namespace scree
 {
+namespace
+{
+template <typename T>
+void
+sort_and_unite(std::vector<T> &values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+} // namespace
+
 template <int dim>
 Fields<dim>::Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
                     const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers)
@@ -39,21 +51,19 @@ Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
                       const std::vector<Body<dim>> &bodies)
 {
   bodies_of_cell.resize(grid.cells().size());
-  for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        const GridCell<dim> &cell    = grid.cells()[c];
-        const auto          &box     = bodies[b].box;
-        bool                 overlap = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          overlap &= cell.lower[d] < box.upper_bound(d) + cell.size
-                     && cell.lower[d] + 2. * cell.size > box.lower_bound(d);
-        if (!overlap || bodies[b].is_rigid())
-          continue;
-        const CellLocation location = level_set_nodes.cut(c, bodies[b]).location;
-        if (location != CellLocation::outside)
-          bodies_of_cell[c].emplace_back(b, location == CellLocation::cut);
-      }
+  CellBodies<dim>(bodies).visit(
+    grid.triangulation(), [](const double size) { return size; },
+    [&](const auto &cell, const std::vector<unsigned int> &near) {
+      const unsigned int c = grid.local_index(*cell);
+      for (const unsigned int b : near)
+        {
+          if (bodies[b].is_rigid())
+            continue;
+          const CellLocation location = level_set_nodes.cut(c, bodies[b]).location;
+          if (location != CellLocation::outside)
+            bodies_of_cell[c].emplace_back(b, location == CellLocation::cut);
+        }
+    });
   using Content = std::vector<std::pair<unsigned int, bool>>;
   dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
     grid.triangulation(),
@@ -75,27 +85,37 @@ Fields<dim>::colour_bodies(const unsigned int n_bodies)
     for (const auto &[body, is_cut] : bodies_of_cell[c])
       for (const unsigned int v : grid.cells()[c].iterator->vertex_indices())
         bodies_at_vertex[grid.cells()[c].iterator->vertex_index(v)].push_back(body);
-  std::vector<unsigned int> conflict(n_bodies * n_bodies, 0);
+  using Edge = std::pair<unsigned int, unsigned int>; // a < b
+  std::vector<Edge>         conflicts;
+  std::vector<unsigned int> near;
   for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
     {
-      std::set<unsigned int> near;
+      near.clear();
       for (const unsigned int v : grid.cells()[c].iterator->vertex_indices())
-        for (const unsigned int body : bodies_at_vertex[grid.cells()[c].iterator->vertex_index(v)])
-          near.insert(body);
-      for (const unsigned int a : near)
-        for (const unsigned int b : near)
-          conflict[a * n_bodies + b] = 1;
+        {
+          const auto &there = bodies_at_vertex[grid.cells()[c].iterator->vertex_index(v)];
+          near.insert(near.end(), there.begin(), there.end());
+        }
+      sort_and_unite(near);
+      for (const unsigned int b : near)
+        for (const unsigned int a : near)
+          if (a < b && (conflicts.empty() || conflicts.back() != Edge(a, b)))
+            conflicts.emplace_back(a, b);
     }
-  dealii::Utilities::MPI::max(conflict, grid.communicator(), conflict);
+  sort_and_unite(conflicts);
+  // Below each body, those in conflict with it on some process.
+  std::vector<std::vector<unsigned int>> below(n_bodies);
+  for (const auto &of_process : dealii::Utilities::MPI::all_gather(grid.communicator(), conflicts))
+    for (const auto &[a, b] : of_process)
+      below[b].push_back(a);
 
   colour.resize(n_bodies);
   unsigned int n_colours = 0;
   for (unsigned int b = 0; b < n_bodies; ++b)
     {
       std::set<unsigned int> taken;
-      for (unsigned int a = 0; a < b; ++a)
-        if (conflict[a * n_bodies + b])
-          taken.insert(colour[a]);
+      for (const unsigned int a : below[b])
+        taken.insert(colour[a]);
       while (taken.count(colour[b]))
         ++colour[b];
       n_colours = std::max(n_colours, colour[b] + 1);
@@ -206,8 +226,7 @@ Fields<dim>::list_nodes()
           relevant.push_back(global);
         }
     }
-  std::sort(relevant.begin(), relevant.end());
-  relevant.erase(std::unique(relevant.begin(), relevant.end()), relevant.end());
+  sort_and_unite(relevant);
   relevant_dofs = owned_dofs;
   relevant_dofs.add_indices(relevant.begin(), relevant.end());
   relevant_dofs.add_range(n_dofs() - n_trailing(), n_dofs());

@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/grid/background_grid.h>
+#include <scree/grid/cell_bodies.h>
 #include <scree/parameters/expression_entry.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <unordered_map>
 
@@ -36,6 +38,21 @@ number(const double value)
   std::ostringstream text;
   text << value;
   return text.str();
+}
+
+/** The cell size limit at a point. */
+template <int dim>
+double
+positive_value(const Expression<dim> &limit, const dealii::Point<dim> &x)
+{
+  const double result = limit.value(x);
+  if (result > 0.)
+    return result;
+  std::ostringstream where;
+  where << x;
+  throw UserError("Grid/Cell size limit",
+                  "'" + limit.text() + "' is " + number(result) + " at the point " + where.str(),
+                  "it must be positive everywhere");
 }
 } // namespace
 
@@ -163,20 +180,24 @@ BackgroundGrid<dim>::share(const std::vector<Body<dim>> &bodies)
   if (dealii::Utilities::MPI::n_mpi_processes(communicator()) == 1)
     return;
   // deal.II gives every cell 1000, which covers a cell without body.
-  constexpr unsigned int weight_of_body = 10000, weight_of_cut = 10000;
-  const auto connection = tria.signals.cell_weight.connect([&](const auto &cell, const auto) {
-    const double half_diagonal = 0.5 * cell->diameter();
-    unsigned int weight        = 0;
-    for (const Body<dim> &body : bodies)
-      {
-        if (body.is_rigid())
-          continue;
-        const double distance = body.level_set.value(cell->center(), 1);
-        weight += (distance < half_diagonal ? weight_of_body : 0)
-                  + (std::abs(distance) < half_diagonal ? weight_of_cut : 0);
-      }
-    return weight;
-  });
+  constexpr unsigned int    weight_of_body = 10000, weight_of_cut = 10000;
+  std::vector<unsigned int> weights(tria.n_active_cells(), 0);
+  CellBodies<dim>(bodies).visit(
+    tria, [](const double size) { return 0.5 * std::sqrt(double(dim)) * size; },
+    [&](const auto &cell, const std::vector<unsigned int> &near) {
+      const double  half_diagonal = 0.5 * cell->diameter();
+      unsigned int &weight        = weights[cell->active_cell_index()];
+      for (const unsigned int b : near)
+        {
+          if (bodies[b].is_rigid())
+            continue;
+          const double distance = bodies[b].level_set.value(cell->center(), 1);
+          weight += (distance < half_diagonal ? weight_of_body : 0)
+                    + (std::abs(distance) < half_diagonal ? weight_of_cut : 0);
+        }
+    });
+  const auto connection = tria.signals.cell_weight.connect(
+    [&](const auto &cell, const auto) { return weights[cell->active_cell_index()]; });
   tria.repartition();
   connection.disconnect();
 }
@@ -191,41 +212,42 @@ BackgroundGrid<dim>::refine_by_contact(
   std::unique_ptr<Expression<dim>> limit;
   if (!parameters.cell_size_limit.empty())
     limit = std::make_unique<Expression<dim>>(parameters.cell_size_limit, 1, "Cell size limit");
-  const auto is_too_large = [&](const dealii::Point<dim> &centre, const double size) {
-    const double half_diagonal = 0.5 * std::sqrt(double(dim)) * size;
-    if (limit)
-      {
-        const double largest = limit->value(centre);
-        if (!(largest > 0.))
-          {
-            std::ostringstream where;
-            where << centre;
-            throw UserError("Grid/Cell size limit",
-                            "'" + limit->text() + "' is " + number(largest) + " at the point "
-                              + where.str(),
-                            "it must be positive everywhere");
-          }
-        if (size > largest * (1. + 1e-10))
-          return true;
-      }
-    for (const auto &[a, b] : pairs)
-      {
-        // The level sets are distances: the cell is at least this far from a place of contact.
-        const double distance
-          = std::max(bodies[a].level_set.value(centre, 1), bodies[b].level_set.value(centre, 1))
-            - half_diagonal;
-        if (size
-            > h + parameters.grading * std::max(0., distance - parameters.band * h) + 1e-10 * h)
-          return true;
-      }
-    return false;
+  const auto half_diagonal = [](const double size) { return 0.5 * std::sqrt(double(dim)) * size; };
+  // A cell is too large where its centre is nearer than this to a place of contact.
+  const auto distance_of_size = [&](const double size) {
+    const double excess = size - h - 1e-10 * h;
+    return excess <= 0. ? 0.
+                        : half_diagonal(size) + parameters.band * h + excess / parameters.grading;
   };
+  const std::set<std::pair<unsigned int, unsigned int>> may_touch(pairs.begin(), pairs.end());
+  const CellBodies<dim>                                 cell_bodies(bodies);
+  std::vector<unsigned int>                             nearest;
   for (unsigned int level = parameters.coarsest_level; level < parameters.finest_level; ++level)
     {
-      for (const auto &cell : tria.active_cell_iterators())
-        if (cell->is_locally_owned() && cell->level() < int(parameters.finest_level)
-            && is_too_large(cell->center(), parameters.cell_size(cell->level())))
-          cell->set_refine_flag();
+      if (limit)
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->level() < int(parameters.finest_level)
+              && parameters.cell_size(cell->level())
+                   > (1. + 1e-10) * positive_value(*limit, cell->center()))
+            cell->set_refine_flag();
+      cell_bodies.visit(tria, distance_of_size, [&](const auto &cell, const auto &near) {
+        if (cell->level() == int(parameters.finest_level) || cell->refine_flag_set())
+          return;
+        // The level sets are distances; the place of contact is as far as the farther body.
+        const double distance = distance_of_size(parameters.cell_size(cell->level()));
+        nearest.clear();
+        for (const unsigned int b : near)
+          if (bodies[b].level_set.value(cell->center(), 1) < distance)
+            {
+              for (const unsigned int a : nearest)
+                if (may_touch.count({a, b}))
+                  {
+                    cell->set_refine_flag();
+                    return;
+                  }
+              nearest.push_back(b);
+            }
+      });
       tria.execute_coarsening_and_refinement();
     }
 }

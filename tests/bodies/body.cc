@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/bodies/body.h>
+#include <scree/bodies/broad_phase.h>
 #include <scree/parameters/file.h>
 
 #include <cmath>
@@ -76,10 +76,10 @@ TEST(Bodies, CandidatePairs)
   const auto found = bodies("set Names = a, b, c\n" + disc("a", -0.7, 0.2) + disc("b", 0., 0.2)
                             + disc("c", 0.45, 0.2));
   using Pairs      = std::vector<std::pair<unsigned int, unsigned int>>;
-  EXPECT_EQ(candidate_pairs(found, 0.01), (Pairs{}));
-  EXPECT_EQ(candidate_pairs(found, 0.06), (Pairs{{1, 2}}));
-  EXPECT_EQ(candidate_pairs(found, 0.31), (Pairs{{0, 1}, {1, 2}}));
-  EXPECT_EQ(candidate_pairs(found, 2.), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
+  EXPECT_EQ(BodyBoxes<2>(found).pairs(0.01), (Pairs{}));
+  EXPECT_EQ(BodyBoxes<2>(found).pairs(0.06), (Pairs{{1, 2}}));
+  EXPECT_EQ(BodyBoxes<2>(found).pairs(0.31), (Pairs{{0, 1}, {1, 2}}));
+  EXPECT_EQ(BodyBoxes<2>(found).pairs(2.), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
 }
 
 TEST(Bodies, WrongBodiesAreExplained)

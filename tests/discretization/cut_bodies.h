@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/bodies/broad_phase.h>
 #include <scree/discretization/fields.h>
 #include <scree/parameters/file.h>
 
@@ -69,7 +70,7 @@ struct CutBodies
     bodies
       = make_bodies<dim>(input.bodies, materials, {input.grid.lower, h / input.degree, grid.box()},
                          std::max((shift + 2.) * h, 2. * coarsest));
-    pairs = candidate_pairs(bodies, 2. * shift * h);
+    pairs = BodyBoxes<dim>(bodies).pairs(2. * shift * h);
     grid.refine(bodies, pairs);
     level_set_nodes            = std::make_unique<LevelSetNodes<dim>>(grid, input.degree);
     unsigned int n_multipliers = 0;

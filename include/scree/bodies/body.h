@@ -97,12 +97,4 @@ std::vector<Body<dim>>
 make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
             const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
             const LatticeFrame<dim> &frame, const double margin);
-
-/**
- * Broad phase: the pairs (a < b) of bodies whose bounding boxes come closer than `reach` [L], by an
- * r-tree (Boost.Geometry).
- */
-template <int dim>
-std::vector<std::pair<unsigned int, unsigned int>>
-candidate_pairs(const std::vector<Body<dim>> &bodies, const double reach);
 } // namespace scree
