@@ -2,15 +2,29 @@
 #include <scree/contact/contact_surface.h>
 #include <scree/contact/exact_distance.h>
 #include <scree/contact/kinked_surface.h>
+#include <scree/contact/least_gap.h>
+#include <scree/grid/cell_bodies.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace scree
 {
 namespace
 {
+template <int dim>
+dealii::Point<dim>
+centre(const GridCell<dim> &cell)
+{
+  dealii::Point<dim> result = cell.lower;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d] += 0.5 * cell.size;
+  return result;
+}
+
 /** Cuts the contact surface of one pair from cells. */
 template <int dim>
 class PairSurface
@@ -32,18 +46,9 @@ public:
   {
   }
 
-  /** Whether both bodies come so near to the cell that its points may be closer than `shift`. */
-  bool may_pass(const GridCell<dim> &cell, const double shift) const
-  {
-    const double reach = 0.5 * std::sqrt(double(dim)) * cell.size;
-    const double at_a  = a.level_set.value(centre(cell), 1),
-                 at_b  = b.level_set.value(centre(cell), 1);
-    return std::max(at_a, at_b) <= shift + 2. * reach && std::abs(at_a - at_b) <= 4. * reach;
-  }
-
-  /** Appends the points in cell c of the grid whose gap is at most `largest_gap` [L]. */
-  void append(const unsigned int c, const GridCell<dim> &cell, const unsigned int number,
-              const double largest_gap, std::vector<ContactPoint<dim>> &points);
+  /** The points in cell c of the grid. */
+  std::vector<ContactPoint<dim>> points(const unsigned int c, const GridCell<dim> &cell,
+                                        const unsigned int number);
 
 private:
   using Values    = std::array<double, max_nodes_per_cell<dim>>;
@@ -52,14 +57,6 @@ private:
   static bool has_kinks(const Body<dim> &body)
   {
     return body.shape && !body.shape->is_smooth();
-  }
-
-  static dealii::Point<dim> centre(const GridCell<dim> &cell)
-  {
-    dealii::Point<dim> result = cell.lower;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] += 0.5 * cell.size;
-    return result;
   }
 
   /** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
@@ -110,9 +107,8 @@ PairSurface<dim>::normal(const dealii::Point<dim> &x, const double size,
 }
 
 template <int dim>
-void
-PairSurface<dim>::append(const unsigned int c, const GridCell<dim> &cell, const unsigned int number,
-                         const double largest_gap, std::vector<ContactPoint<dim>> &points)
+std::vector<ContactPoint<dim>>
+PairSurface<dim>::points(const unsigned int c, const GridCell<dim> &cell, const unsigned int number)
 {
   Values phi_a, phi_b, psi, scaled, shape;
   level_set_nodes.facing_values(c, a, -b.level_set.value_and_gradient(centre(cell), 1).second,
@@ -124,8 +120,9 @@ PairSurface<dim>::append(const unsigned int c, const GridCell<dim> &cell, const 
   level_set_nodes.nudged(psi.data(), cell.size, scaled.data());
   const unsigned int n_negative = std::count_if(scaled.begin(), scaled.begin() + basis.n_nodes,
                                                 [](const double value) { return value < 0.; });
+  std::vector<ContactPoint<dim>> result;
   if (n_negative == 0 || n_negative == basis.n_nodes)
-    return;
+    return result;
   const double          negligible = 1e-8 * std::pow(cell.size, dim - 1);
   const CellPoints<dim> surface    = rules.rules(scaled.data(), cell.size).surface;
   const Gradients       gradients  = nodal_normals ? nodal_gradients(cell) : Gradients();
@@ -140,14 +137,53 @@ PairSurface<dim>::append(const unsigned int c, const GridCell<dim> &cell, const 
           nodal += shape[i] * gradients[i];
         }
       // A contour through a vertex leaves points of no length in the cells that touch it.
-      if (gap > largest_gap || surface.weights[q] < negligible)
+      if (surface.weights[q] < negligible)
         continue;
       const dealii::Point<dim> x
         = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
       const auto [n, normal_of] = normal(x, cell.size, surface.normals[q], nodal);
-      points.push_back({number, x, n, surface.weights[q], gap, cell.size, n, gap});
-      points.back().normal_of = normal_of;
+      result.push_back({number, x, n, surface.weights[q], gap, cell.size, n, gap});
+      result.back().normal_of = normal_of;
     }
+  return result;
+}
+
+/**
+ * The pairs and the cells in which their surface may have points closer to both than `shift`, pair
+ * by pair.
+ */
+template <int dim>
+std::vector<std::pair<unsigned int, unsigned int>>
+cells_of_pairs(const BackgroundGrid<dim> &grid, const std::vector<Body<dim>> &bodies,
+               const std::vector<ContactPair> &pairs, const double shift)
+{
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> numbers;
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    numbers[{pairs[p].a, pairs[p].b}] = p;
+  const auto diagonal = [](const double size) { return std::sqrt(double(dim)) * size; };
+  std::vector<std::pair<unsigned int, unsigned int>> result;
+  std::vector<std::pair<unsigned int, double>>       here; // bodies, phi at the centre
+  CellBodies<dim>(bodies).visit(
+    grid.triangulation(), [&](const double size) { return shift + diagonal(size); },
+    [&](const auto &iterator, const std::vector<unsigned int> &near) {
+      const unsigned int   c     = grid.local_index(*iterator);
+      const GridCell<dim> &cell  = grid.cells()[c];
+      const double         reach = diagonal(cell.size);
+      here.clear();
+      for (const unsigned int b : near)
+        {
+          const double at_b = bodies[b].level_set.value(centre(cell), 1);
+          if (at_b > shift + reach)
+            continue;
+          for (const auto &[a, at_a] : here)
+            if (std::abs(at_a - at_b) <= 2. * reach)
+              if (const auto found = numbers.find({a, b}); found != numbers.end())
+                result.emplace_back(found->second, c);
+          here.emplace_back(b, at_b);
+        }
+    });
+  std::sort(result.begin(), result.end());
+  return result;
 }
 } // namespace
 
@@ -160,22 +196,25 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
   const BackgroundGrid<dim>     &grid = fields.grid;
   KinkedSurface<dim>             kinked(distances, bodies, fields.basis);
   std::vector<ContactPoint<dim>> points;
-  for (unsigned int p = 0; p < pairs.size(); ++p)
+  const auto                     of_pairs = cells_of_pairs(grid, bodies, pairs, shift);
+  for (auto [p, c] = std::pair(0u, of_pairs.begin()); c != of_pairs.end(); ++p)
     {
-      PairSurface<dim> surface(fields.basis, level_set_nodes, bodies, pairs[p], distances,
-                               nodal_normals);
-      for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      if (c->first != p)
+        continue;
+      PairSurface<dim>    surface(fields.basis, level_set_nodes, bodies, pairs[p], distances,
+                                  nodal_normals);
+      const LeastGap<dim> least_gap(distances, bodies, pairs[p]);
+      for (; c != of_pairs.end() && c->first == p; ++c)
         {
-          const GridCell<dim> &cell = grid.cells()[c];
-          if (!surface.may_pass(cell, shift))
-            continue;
-          if (kinked.concerns(pairs[p], cell))
-            {
-              const auto of_cell = kinked.points(p, pairs[p], cell, 2. * shift);
-              points.insert(points.end(), of_cell.begin(), of_cell.end());
-            }
-          else
-            surface.append(c, cell, p, 2. * shift, points);
+          const GridCell<dim> &cell      = grid.cells()[c->second];
+          const bool           is_kinked = kinked.concerns(pairs[p], cell);
+          auto                 of_cell
+            = is_kinked ? kinked.points(p, pairs[p], cell) : surface.points(c->second, cell, p);
+          // An edge or corner has small points of its own.
+          if (!is_kinked)
+            least_gap.add_point(cell, of_cell);
+          std::copy_if(of_cell.begin(), of_cell.end(), std::back_inserter(points),
+                       [&](const auto &point) { return point.initial_gap <= 2. * shift; });
         }
     }
   return points;

@@ -182,7 +182,7 @@ KinkedSurface<dim>::places(const Piece &piece) const
 template <int dim>
 std::vector<ContactPoint<dim>>
 KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
-                           const GridCell<dim> &cell, const double largest_gap)
+                           const GridCell<dim> &cell)
 {
   constexpr double facing = 0.9; // cosine
   pieces.clear();
@@ -198,11 +198,9 @@ KinkedSurface<dim>::points(const unsigned int number, const ContactPair &pair,
       const auto x_of_points = places(piece);
       for (const dealii::Point<dim> &x : x_of_points)
         {
-          const double gap = distances.value(pair.a, x) + distances.value(pair.b, x);
-          if (gap > largest_gap)
-            continue;
-          const ContactNormal<dim> n = contact_normal(distances, bodies, pair.a, pair.b, x,
-                                                      cell.size, piece.n_a - piece.n_b);
+          const double             gap = distances.value(pair.a, x) + distances.value(pair.b, x);
+          const ContactNormal<dim> n   = contact_normal(distances, bodies, pair.a, pair.b, x,
+                                                        cell.size, piece.n_a - piece.n_b);
           result.push_back({number, x, n.normal, piece.weight / x_of_points.size(), gap, cell.size,
                             n.normal, gap, false, true, is_beyond, n.of});
         }

@@ -256,7 +256,7 @@ TEST(ContactReach, ContactsAtFewPointsAreUnderResolved)
   ContactPoints<2> contact = contact_points(model);
   force(model, contact, Tensor<1, 2>());
   EXPECT_TRUE(under_resolved_pairs(contact, MPI_COMM_WORLD).empty());
-  force(model, contact, Tensor<1, 2>({0., -0.008}));
+  force(model, contact, Tensor<1, 2>({0., -0.002}));
   EXPECT_EQ(under_resolved_pairs(contact, MPI_COMM_WORLD).size(), 1u);
   force(model, contact, Tensor<1, 2>({0., -0.1}));
   EXPECT_TRUE(under_resolved_pairs(contact, MPI_COMM_WORLD).empty());

@@ -27,9 +27,9 @@ public:
   /** Whether the cell needs it and the exact distances are known. */
   bool concerns(const ContactPair &pair, const GridCell<dim> &cell) const;
 
-  /** The points in a cell, without those whose gap exceeds `largest_gap` [L]. */
+  /** The points in a cell. */
   std::vector<ContactPoint<dim>> points(const unsigned int number, const ContactPair &pair,
-                                        const GridCell<dim> &cell, const double largest_gap);
+                                        const GridCell<dim> &cell);
 
 private:
   /** A point of a part of the cell, or several of them joined. */
