@@ -267,14 +267,15 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   for (const double residual : result.residuals)
     history += " " + short_number(residual);
   log.line(history);
-  const auto summaries = summarise_contact(*contact, communicator);
+  const auto                summaries = summarise_contact(*contact, communicator);
+  std::vector<unsigned int> flips(n_flips.size());
+  dealii::Utilities::MPI::sum(n_flips, communicator, flips);
   for (unsigned int p = 0; p < summaries.size(); ++p)
-    log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
-             + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
-             + short_number(summaries[p].slip) + ", smallest gap "
-             + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
-             + ", points that changed their state in the last iteration: "
-             + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
+    log.line(
+      "  " + contact->pairs()[p].name + ": open/stick/slip " + short_number(summaries[p].open) + "/"
+      + short_number(summaries[p].stick) + "/" + short_number(summaries[p].slip) + ", smallest gap "
+      + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
+      + ", points that changed their state in the last iteration: " + std::to_string(flips[p]));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                    \
