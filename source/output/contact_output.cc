@@ -82,6 +82,7 @@ ContactSummary<dim>::merge(const ContactSummary &other)
 {
   force += other.force;
   moment += other.moment;
+  moved_moment += other.moved_moment;
   open += other.open;
   stick += other.stick;
   slip += other.slip;
@@ -113,6 +114,8 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
       const dealii::Tensor<1, dim> force    = point.weight * response.traction(point.normal);
       summary.force += force;
       summary.moment += moment_of<dim>(point.position, force);
+      summary.moved_moment
+        += moment_of<dim>(point.position + contact.mean_displacements()[i], force);
       // Slivers of the surface carry nothing and would decide which extreme is sampled.
       if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1)
           && contact.gap(i) < summary.minimum_gap)

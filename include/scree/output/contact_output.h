@@ -13,6 +13,7 @@ struct ContactSummary
 {
   dealii::Tensor<1, dim> force;  //!< on body b
   dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
+  dealii::Tensor<1, 3>   moved_moment; //!< the same with the points where the surface has moved to
   double                 minimum_gap = 0.;     //!< smallest gap, negative: penetration [L]
   dealii::Point<dim>     where;                //!< of the smallest gap
   double                 max_penetration = 0.; //!< largest penetration [L]
@@ -26,8 +27,8 @@ struct ContactSummary
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &force &moment &minimum_gap &where &max_penetration &max_pressure;
-    archive &open &stick &slip &open_points &stick_points       &slip_points;
+    archive &force &moment &moved_moment &minimum_gap &where &max_penetration &max_pressure;
+    archive &open &stick &slip &open_points &stick_points                     &slip_points;
   }
 };
 
