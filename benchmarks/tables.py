@@ -10,6 +10,9 @@ import sys
 
 import numpy as np
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'contrib'))
+from plotting.pairs import pair_columns
+
 
 def read_csv(path):
     """A CSV file as a dictionary of columns; columns of numbers become arrays."""
@@ -23,6 +26,13 @@ def read_csv(path):
         except ValueError:
             columns[name] = np.array(values)
     return columns
+
+
+def read_history(results):
+    """history.csv, with the columns of pairs that it leaves out when there are many."""
+    history = read_csv(os.path.join(results, 'history.csv'))
+    of_pairs = pair_columns(results, history['step'])
+    return {**{name: np.array(values) for name, values in of_pairs.items()}, **history}
 
 
 def last_contact(results, step=None):

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from .pairs import pair_columns
+
 
 class ResultsError(Exception):
     """Something the user can mend: a missing file, an unknown name."""
@@ -180,7 +182,10 @@ class RunResults:
         return read_table(self.contact_files[step][0])
 
     def history(self):
-        return read_table(self.directory / "history.csv")
+        """With the columns of pairs, wherever they are."""
+        history = read_table(self.directory / "history.csv")
+        of_pairs = pair_columns(self.directory, history["step"])
+        return {**{name: np.array(values) for name, values in of_pairs.items()}, **history}
 
     def read_parameters(self):
         """The resolved parameters as {"Section/Subsection/Key": text}; those of a cycle are one directory up."""

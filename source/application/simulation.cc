@@ -244,7 +244,7 @@ Simulation<dim>::write_results()
   const bool           is_last = step_control.finished();
   const auto           is_due
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
-  results->gather_history(record, *equilibrium, *contact, *bulk, state.displacement);
+  results->gather_history(record, *equilibrium, *contact, *quadrature, *bulk, state.displacement);
   results->write_probes(record, *bulk, ghosted);
   bool is_written = true;
   if (is_due(output.fields_every))

@@ -53,7 +53,7 @@ Simulation<dim>::save_if_due()
   const auto &output     = parameters.output;
   const bool  is_written = results->flush();
   if (!is_written)
-    log.line("Warning: rows of history.csv or probes.csv cannot be written (is the disk full?). "
+    log.line("Warning: rows of history.csv or other tables cannot be written (is the disk full?). "
              "They are kept and tried again after the next step; no checkpoint is written "
              "meanwhile, the last one remains");
   const bool by_steps

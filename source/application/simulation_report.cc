@@ -86,6 +86,9 @@ Simulation<dim>::report_set_up()
         log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
                  + short_number(summaries[p].max_penetration));
     }
+  if (contact->pairs().size() > Results<dim>::most_pairs_in_history)
+    log.line("Results of the pairs are in contacts.csv, not in history.csv: there are more than "
+             + std::to_string(Results<dim>::most_pairs_in_history));
   log.line("Contact points: " + std::to_string(n_points));
   for (const auto &free : equilibrium->free_bodies())
     log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
@@ -173,7 +176,7 @@ void
 Simulation<dim>::report_end()
 {
   require(results->flush(), directory,
-          "rows of history.csv or probes.csv could not be written to the last",
+          "rows of history.csv or other tables could not be written to the last",
           "make room on the disk and go on with scree --resume " + directory);
   log.line("Wall time by part:");
   for (const auto &[name, seconds] : timings.parts())
@@ -267,14 +270,15 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   for (const double residual : result.residuals)
     history += " " + short_number(residual);
   log.line(history);
-  const auto summaries = summarise_contact(*contact, communicator);
+  const auto                summaries = summarise_contact(*contact, communicator);
+  std::vector<unsigned int> flips(n_flips.size());
+  dealii::Utilities::MPI::sum(n_flips, communicator, flips);
   for (unsigned int p = 0; p < summaries.size(); ++p)
-    log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
-             + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
-             + short_number(summaries[p].slip) + ", smallest gap "
-             + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
-             + ", points that changed their state in the last iteration: "
-             + std::to_string(dealii::Utilities::MPI::sum(n_flips[p], communicator)));
+    log.line(
+      "  " + contact->pairs()[p].name + ": open/stick/slip " + short_number(summaries[p].open) + "/"
+      + short_number(summaries[p].stick) + "/" + short_number(summaries[p].slip) + ", smallest gap "
+      + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
+      + ", points that changed their state in the last iteration: " + std::to_string(flips[p]));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                    \

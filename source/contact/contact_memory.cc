@@ -1,3 +1,4 @@
+#include <scree/base/joint_sum.h>
 #include <scree/contact/contact_memory.h>
 #include <scree/contact/surface_fit.h>
 #include <scree/points/point_search.h>
@@ -377,11 +378,13 @@ transferred_forces(const ContactPoints<dim> &contact, const ContactMemory<dim> &
       force.tangential_after += point.weight * tau;
       force.total_after += point.weight * (history.pressure[i] * point.start_normal + tau);
     }
+  JointSum sum;
   for (auto &force : result)
     {
-      force.tangential_after = Utilities::MPI::sum(force.tangential_after, communicator);
-      force.total_after      = Utilities::MPI::sum(force.total_after, communicator);
+      sum.add(force.tangential_after);
+      sum.add(force.total_after);
     }
+  sum.reduce(communicator);
   return result;
 }
 

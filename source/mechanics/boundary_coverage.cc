@@ -6,13 +6,13 @@
 namespace scree
 {
 template <int dim>
-std::vector<double>
-coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-         const Body<dim> &body, const BoundaryRegion<dim> &region, const StepStart<dim> &start)
+void
+set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+             const Body<dim> &body, const BoundaryRegion<dim> &region, const StepStart<dim> &start,
+             std::vector<double> &coverage)
 {
-  CutCellRules<dim>   rules(fields.basis);
-  std::vector<double> result(fields.n_owned_cells(), 0.);
-  int                 last_cell = -1;
+  CutCellRules<dim> rules(fields.basis);
+  int               last_cell = -1;
   for (const auto &point : region.points)
     {
       const unsigned int a = point.active_cell;
@@ -34,9 +34,8 @@ coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
           if (selects(geometry.lower + geometry.size * dealii::Tensor<1, dim>(surface.points[q])))
             covered += surface.weights[q];
         }
-      result[a] = all > 0. ? covered / all : 0.;
+      coverage[a] = all > 0. ? covered / all : 0.;
     }
-  return result;
 }
 
 template <int dim>
@@ -61,11 +60,11 @@ outer_edge(const Fields<dim> &fields, const std::vector<double> &coverage)
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                           \
-  template std::vector<double> coverage(const Fields<dim> &, const LevelSetNodes<dim> &, \
-                                        const Body<dim> &, const BoundaryRegion<dim> &,  \
-                                        const StepStart<dim> &);                         \
-  template std::vector<bool>   outer_edge(const Fields<dim> &, const std::vector<double> &);
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template void set_coverage(const Fields<dim> &, const LevelSetNodes<dim> &, const Body<dim> &, \
+                             const BoundaryRegion<dim> &, const StepStart<dim> &,                \
+                             std::vector<double> &);                                             \
+  template std::vector<bool> outer_edge(const Fields<dim> &, const std::vector<double> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -39,21 +39,41 @@ BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &level_set_nodes)
   const auto       flows   = [&](const BoundaryPoint<dim> &point) {
     return bulk.secant_ratio(point.active_cell) < largest;
   };
-  for (auto &region : boundary_regions)
+  std::vector<unsigned int> is_found(boundary_regions.size());
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
     {
-      auto      &points    = region.points;
-      const bool has_edges = region.condition->parameters.where != "1";
-      const bool is_found
-        = is_nitsche(region) && has_edges && std::any_of(points.begin(), points.end(), flows);
-      if (!dealii::Utilities::MPI::logical_or(is_found, fields.grid.communicator()))
-        continue;
-      const auto covered  = coverage(fields, level_set_nodes, bodies[region.body], region, *start);
+      const auto &region    = boundary_regions[r];
+      const bool  has_edges = region.condition->parameters.where != "1";
+      is_found[r]           = is_nitsche(region) && has_edges
+                    && std::any_of(region.points.begin(), region.points.end(), flows);
+    }
+  dealii::Utilities::MPI::max(is_found, fields.grid.communicator(), is_found);
+  // The first region of each body at once, then the second ones: bodies share no cells.
+  std::vector<std::vector<unsigned int>> rounds;
+  std::vector<unsigned int>              n_of_body(bodies.size());
+  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+    if (is_found[r])
+      {
+        const unsigned int round = n_of_body[boundary_regions[r].body]++;
+        rounds.resize(std::max<std::size_t>(rounds.size(), round + 1));
+        rounds[round].push_back(r);
+      }
+  for (const auto &round : rounds)
+    {
+      std::vector<double> covered(fields.n_owned_cells(), 0.);
+      for (const unsigned int r : round)
+        set_coverage(fields, level_set_nodes, bodies[boundary_regions[r].body], boundary_regions[r],
+                     *start, covered);
       const auto is_outer = outer_edge(fields, covered);
-      points.erase(std::remove_if(points.begin(), points.end(),
-                                  [&](const BoundaryPoint<dim> &point) {
-                                    return is_outer[point.active_cell] && flows(point);
-                                  }),
-                   points.end());
+      for (const unsigned int r : round)
+        {
+          auto &points = boundary_regions[r].points;
+          points.erase(std::remove_if(points.begin(), points.end(),
+                                      [&](const BoundaryPoint<dim> &point) {
+                                        return is_outer[point.active_cell] && flows(point);
+                                      }),
+                       points.end());
+        }
     }
 }
 

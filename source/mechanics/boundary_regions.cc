@@ -1,98 +1,110 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/joint_sum.h>
 #include <scree/mechanics/load_points.h>
-
-#include <deal.II/base/mpi.h>
 
 namespace scree
 {
 namespace
 {
+/** Adds the points of a region in a cell of its body. */
 template <int dim>
 void
-find_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-            const CutQuadrature<dim> &quadrature, const Body<dim> &body,
-            const StepStart<dim> *start, BoundaryRegion<dim> &region)
+add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+           const CutQuadrature<dim> &quadrature, const Body<dim> &body, const StepStart<dim> *start,
+           const unsigned int a, CutCellRules<dim> &rules, BoundaryRegion<dim> &region)
 {
-  CutCellRules<dim>  rules(fields.basis);
-  const unsigned int face = region.condition->box_face;
+  const ActiveCell  &cell     = fields.cells()[a];
+  const auto        &geometry = fields.grid.cells()[cell.grid_cell];
+  const unsigned int face     = region.condition->box_face;
+  const bool         on_face  = face != BoundaryCondition<dim>::no_face;
+  if (on_face ? !geometry.iterator->at_boundary(face) : !cell.is_cut)
+    return;
   // Loads see the exact boundary; what holds a body acts on the cut one, as the bulk does, and so
   // does a pressure all around, whose uniform stress is then exact.
   const auto &parameters = region.condition->parameters;
   const bool  is_whole   = parameters.where == "1";
   const bool  is_load    = (parameters.type == ConditionType::traction
-                        || (parameters.type == ConditionType::pressure
-                            && !(is_whole && face == BoundaryCondition<dim>::no_face)))
+                        || (parameters.type == ConditionType::pressure && !(is_whole && !on_face)))
                        && !start && body.shape;
   std::function<bool(const dealii::Point<dim> &)> selects; // none: all
   if (!is_whole)
     selects = [&](const dealii::Point<dim> &x) { return region.condition->selects(x); };
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  CellPoints<dim> points;
+  if (!on_face && !is_load)
     {
-      const ActiveCell &cell = fields.cells()[a];
-      if (cell.body != region.body)
-        continue;
-      const auto     &geometry = fields.grid.cells()[cell.grid_cell];
-      const bool      on_face  = face != BoundaryCondition<dim>::no_face;
-      CellPoints<dim> points;
-      if (on_face ? !geometry.iterator->at_boundary(face) : !cell.is_cut)
-        continue;
-      if (!on_face && !is_load)
+      const auto &surface = quadrature.surface;
+      const auto  first = surface.begin[a], last = surface.begin[a + 1];
+      points.points.assign(surface.points.begin() + first, surface.points.begin() + last);
+      points.weights.assign(surface.weights.begin() + first, surface.weights.begin() + last);
+      points.normals.assign(surface.normals.begin() + first, surface.normals.begin() + last);
+    }
+  else
+    {
+      const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
+      points = is_load ? load_rule<dim>(rules, fields.basis, geometry, body.shape.get(), cut, face,
+                                        selects)
+                       : rules.face_rule(cut, geometry.size, face);
+      if (is_load && on_face)
+        points.append(strip_on_face(*body.shape, fields.basis, geometry, cut, face));
+    }
+  for (unsigned int q = 0; q < points.points.size(); ++q)
+    {
+      const dealii::Point<dim> position
+        = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
+      BoundaryPoint<dim> point
+        = {a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
+      if (is_load && !on_face)
+        move_to_boundary(*body.shape, geometry, point);
+      if (start)
         {
-          const auto &surface = quadrature.surface;
-          const auto  first = surface.begin[a], last = surface.begin[a + 1];
-          points.points.assign(surface.points.begin() + first, surface.points.begin() + last);
-          points.weights.assign(surface.weights.begin() + first, surface.weights.begin() + last);
-          points.normals.assign(surface.normals.begin() + first, surface.normals.begin() + last);
+          const auto   then        = start->deformation({a, points.points[q]});
+          const double stretch     = (point.normal * then.gradient).norm();
+          point.start_displacement = then.displacement;
+          point.reference_position -= then.displacement;
+          point.area_ratio = stretch / determinant(then.gradient);
         }
-      else
-        {
-          const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
-          points = is_load ? load_rule<dim>(rules, fields.basis, geometry, body.shape.get(), cut,
-                                            face, selects)
-                           : rules.face_rule(cut, geometry.size, face);
-          if (is_load && on_face)
-            points.append(strip_on_face(*body.shape, fields.basis, geometry, cut, face));
-        }
-      for (unsigned int q = 0; q < points.points.size(); ++q)
-        {
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-          BoundaryPoint<dim> point = {
-            a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
-          if (is_load && face == BoundaryCondition<dim>::no_face)
-            move_to_boundary(*body.shape, geometry, point);
-          if (start)
-            {
-              const auto   then        = start->deformation({a, points.points[q]});
-              const double stretch     = (point.normal * then.gradient).norm();
-              point.start_displacement = then.displacement;
-              point.reference_position -= then.displacement;
-              point.area_ratio = stretch / determinant(then.gradient);
-            }
-          if (region.condition->selects(point.reference_position))
-            region.points.push_back(point);
-        }
+      if (region.condition->selects(point.reference_position))
+        region.points.push_back(point);
     }
 }
 
-/** Area and centre over all processes. */
+/** Area, centre and polar moment of all regions over all processes. */
 template <int dim>
 void
-measure(const MPI_Comm communicator, BoundaryRegion<dim> &region)
+measure(const MPI_Comm communicator, std::vector<BoundaryRegion<dim>> &regions)
 {
-  dealii::Tensor<1, dim> first_moment;
-  double                 area = 0.;
-  for (const auto &point : region.points)
+  std::vector<dealii::Tensor<1, dim>> first_moments(regions.size());
+  JointSum                            sum_to_first, sum_to_second;
+  for (unsigned int r = 0; r < regions.size(); ++r)
     {
-      area += point.weight;
-      first_moment += point.weight * point.position;
+      for (const auto &point : regions[r].points)
+        {
+          regions[r].area += point.weight;
+          first_moments[r] += point.weight * point.position;
+        }
+      sum_to_first.add(regions[r].area);
+      sum_to_first.add(first_moments[r]);
     }
-  region.area  = dealii::Utilities::MPI::sum(area, communicator);
-  first_moment = dealii::Utilities::MPI::sum(first_moment, communicator);
-  if (region.area > 0.)
-    region.centre = dealii::Point<dim>(first_moment / region.area);
+  sum_to_first.reduce(communicator);
+  for (unsigned int r = 0; r < regions.size(); ++r)
+    {
+      if (regions[r].area > 0.)
+        regions[r].centre = dealii::Point<dim>(first_moments[r] / regions[r].area);
+      for (const auto &point : regions[r].points)
+        regions[r].polar_moment += point.weight * squared_arm(regions[r], point);
+      sum_to_second.add(regions[r].polar_moment);
+    }
+  sum_to_second.reduce(communicator);
 }
 } // namespace
+
+template <int dim>
+double
+squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point)
+{
+  const dealii::Tensor<1, dim> arm = point.position - region.centre;
+  return arm[0] * arm[0] + arm[1] * arm[1];
+}
 
 template <int dim>
 std::vector<BoundaryRegion<dim>>
@@ -100,29 +112,38 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
                       const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
                       const StepStart<dim> *start)
 {
-  std::vector<BoundaryRegion<dim>> regions;
-  unsigned int                     next_multiplier = 0;
+  std::vector<BoundaryRegion<dim>>       regions;
+  std::vector<std::vector<unsigned int>> regions_of_body(bodies.size());
+  unsigned int                           next_multiplier = 0;
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (const auto &condition : bodies[b].conditions)
       {
         if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
           continue;
-        regions.push_back({b, &condition, {}, 0., {}, next_multiplier});
-        BoundaryRegion<dim> &region = regions.back();
-        find_points(fields, level_set_nodes, quadrature, bodies[b], start, region);
-        measure(fields.grid.communicator(), region);
-        require(region.area > 0., condition.path,
-                "the region selects nothing of the body '" + bodies[b].name + "'",
-                "check On and Where; does the body reach that face of the box?");
+        regions_of_body[b].push_back(regions.size());
+        regions.push_back({b, &condition, {}, 0., {}, 0., next_multiplier});
         if (condition.parameters.type == ConditionType::mean_support)
           next_multiplier += condition.components.size();
       }
+  CutCellRules<dim> rules(fields.basis);
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const unsigned int b = fields.cells()[a].body;
+      for (const unsigned int r : regions_of_body[b])
+        add_points(fields, level_set_nodes, quadrature, bodies[b], start, a, rules, regions[r]);
+    }
+  measure(fields.grid.communicator(), regions);
+  for (const auto &region : regions)
+    require(region.area > 0., region.condition->path,
+            "the region selects nothing of the body '" + bodies[region.body].name + "'",
+            "check On and Where; does the body reach that face of the box?");
   return regions;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                   \
-  template std::vector<BoundaryRegion<dim>> find_boundary_regions(               \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                          \
+  template double squared_arm(const BoundaryRegion<dim> &, const BoundaryPoint<dim> &); \
+  template std::vector<BoundaryRegion<dim>> find_boundary_regions(                      \
+    const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &,        \
     const std::vector<Body<dim>> &, const StepStart<dim> *);
 
 SCREE_INSTANTIATE(2)

@@ -95,15 +95,6 @@ BoundaryTerms<dim>::stress_vectors(const BoundaryRegion<dim> &region,
 }
 
 template <int dim>
-double
-BoundaryTerms<dim>::squared_arm(const BoundaryRegion<dim> &region,
-                                const BoundaryPoint<dim>  &point) const
-{
-  const dealii::Tensor<1, dim> arm = point.position - region.centre;
-  return arm[0] * arm[0] + arm[1] * arm[1];
-}
-
-template <int dim>
 void
 BoundaryTerms<dim>::mean_row(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                              const unsigned int m, std::vector<double> &row) const
@@ -388,19 +379,14 @@ void
 BoundaryTerms<dim>::add_multiplier_resultant(const BoundaryRegion<dim> &region, const Vector &u,
                                              Resultant<dim> &resultant) const
 {
-  double polar_moment = 0.; // int |arm|^2 about the axis through the centre
-  for (const auto &point : region.points)
-    polar_moment += point.weight * squared_arm(region, point);
-  polar_moment = dealii::Utilities::MPI::sum(polar_moment, fields.grid.communicator());
   for (unsigned int m = 0; m < region.condition->components.size(); ++m)
     {
       // The multiplier spreads -scale * (component, or arm turned by 90 degrees) over the region.
-      const DofIndex     index     = fields.multiplier(region.first_multiplier + m);
+      const DofIndex index = fields.multiplier(region.first_multiplier + m);
+      if (!fields.owned().is_element(index))
+        continue;
       const unsigned int component = region.condition->components[m];
-      const double       density
-        = dealii::Utilities::MPI::sum(fields.owned().is_element(index) ? -u(index) : 0.,
-                                      fields.grid.communicator())
-          * multiplier_scale(region);
+      const double       density   = -u(index) * multiplier_scale(region);
       if (component < dim)
         {
           dealii::Tensor<1, dim> force;
@@ -409,7 +395,7 @@ BoundaryTerms<dim>::add_multiplier_resultant(const BoundaryRegion<dim> &region, 
           resultant.moment += moment_of<dim>(region.centre, force);
         }
       else
-        resultant.moment[2] += density * polar_moment;
+        resultant.moment[2] += density * region.polar_moment;
     }
 }
 
@@ -428,12 +414,11 @@ BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
           sum.force += force;
           sum.moment += moment_of<dim>(region.points[q].position, force);
         }
-      sum.force  = dealii::Utilities::MPI::sum(sum.force, fields.grid.communicator());
-      sum.moment = dealii::Utilities::MPI::sum(sum.moment, fields.grid.communicator());
       if (region.condition->parameters.type == ConditionType::mean_support)
         add_multiplier_resultant(region, u, sum);
       result.push_back(sum);
     }
+  sum_over_processes(result, fields.grid.communicator());
   return result;
 }
 

@@ -1,7 +1,21 @@
+#include <scree/base/joint_sum.h>
 #include <scree/mechanics/resultant.h>
 
 namespace scree
 {
+template <int dim>
+void
+sum_over_processes(std::vector<Resultant<dim>> &resultants, const MPI_Comm communicator)
+{
+  JointSum sum;
+  for (auto &resultant : resultants)
+    {
+      sum.add(resultant.force);
+      sum.add(resultant.moment);
+    }
+  sum.reduce(communicator);
+}
+
 template <int dim>
 dealii::Tensor<1, 3>
 moment_of(const dealii::Tensor<1, dim> &position, const dealii::Tensor<1, dim> &force)
@@ -16,6 +30,8 @@ moment_of(const dealii::Tensor<1, dim> &position, const dealii::Tensor<1, dim> &
   return moment;
 }
 
+template void                 sum_over_processes(std::vector<Resultant<2>> &, const MPI_Comm);
+template void                 sum_over_processes(std::vector<Resultant<3>> &, const MPI_Comm);
 template dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 2> &, const dealii::Tensor<1, 2> &);
 template dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &, const dealii::Tensor<1, 3> &);
 } // namespace scree

@@ -1,8 +1,8 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/joint_sum.h>
 #include <scree/mechanics/rigid_bodies.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -157,16 +157,22 @@ template <int dim>
 std::vector<RigidBodyState<dim>>
 RigidBodies<dim>::states(const Vector &u) const
 {
-  const MPI_Comm                   communicator = fields.grid.communicator();
-  std::vector<RigidBodyState<dim>> result;
+  std::vector<typename RigidPose<dim>::Load> loads;
   for (const unsigned int b : rigid_bodies)
+    loads.push_back(contact.rigid_load(b));
+  JointSum sum;
+  for (auto &load : loads)
     {
-      auto load                  = contact.rigid_load(b);
-      load.force                 = dealii::Utilities::MPI::sum(load.force, communicator);
-      load.couple                = dealii::Utilities::MPI::sum(load.couple, communicator);
-      const RigidPose<dim> where = pose(b, u);
-      result.push_back(
-        {b, where.translation(), where.rotation(), -load.force, -where.moment(load)});
+      sum.add(load.force);
+      sum.add(load.couple);
+    }
+  sum.reduce(fields.grid.communicator());
+  std::vector<RigidBodyState<dim>> result;
+  for (unsigned int i = 0; i < loads.size(); ++i)
+    {
+      const RigidPose<dim> where = pose(rigid_bodies[i], u);
+      result.push_back({rigid_bodies[i], where.translation(), where.rotation(), -loads[i].force,
+                        -where.moment(loads[i])});
     }
   return result;
 }

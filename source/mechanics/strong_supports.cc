@@ -1,11 +1,10 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/joint_sum.h>
 #include <scree/mechanics/strong_supports.h>
 
-#include <deal.II/base/mpi.h>
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace scree
 {
@@ -38,13 +37,24 @@ StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector
     : start(start)
     , communicator(fields.grid.communicator())
 {
+  std::vector<std::vector<unsigned int>> supports_of_body(bodies.size());
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (const auto &condition : bodies[b].conditions)
       if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
         {
+          supports_of_body[b].push_back(supports.size());
           supports.emplace_back(b, &condition);
-          add_support(fields, bodies, supports.size() - 1);
         }
+  std::vector<Selection>                     selections(supports.size());
+  std::map<DofIndex, PrescribedUnknown<dim>> found;
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (const unsigned int support : supports_of_body[fields.cells()[a].body])
+      select(fields, a, support, selections[support], found);
+  require_selections(bodies, selections);
+  for (const auto &[index, unknown] : found)
+    prescribed.push_back(unknown);
+  std::stable_sort(prescribed.begin(), prescribed.end(),
+                   [](const auto &a, const auto &b) { return a.support < b.support; });
 }
 
 template <int dim>
@@ -65,62 +75,69 @@ StrongSupports<dim>::is_prescribed_at(const BoundaryCondition<dim> &condition,
 
 template <int dim>
 void
-StrongSupports<dim>::add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                 const unsigned int support)
+StrongSupports<dim>::select(const Fields<dim> &fields, const unsigned int a,
+                            const unsigned int support, Selection &selection,
+                            std::map<DofIndex, PrescribedUnknown<dim>> &found) const
 {
-  const auto &[body, condition] = supports[support];
-  std::map<DofIndex, const PrescribedUnknown<dim> *> known;
-  for (const auto &unknown : prescribed)
-    known[unknown.index] = &unknown;
-  std::map<DofIndex, PrescribedUnknown<dim>> found;
-  unsigned int                               n_selected    = 0;
-  bool                                       contradiction = false;
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    if (fields.cells()[a].body == body)
-      {
-        const auto &cell = fields.grid.cells()[fields.cells()[a].grid_cell];
-        for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-          {
-            const dealii::Point<dim> unit_node = fields.basis.node(i);
-            const dealii::Point<dim> position
-              = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node);
-            const dealii::Point<dim> reference_position
-              = start ? start->reference_position({a, unit_node}) : position;
-            if (!is_prescribed_at(*condition, cell, unit_node, reference_position))
-              continue;
-            ++n_selected;
-            for (unsigned int k = 0; k < condition->components.size(); ++k)
-              {
-                const unsigned int component = condition->components[k];
-                const DofIndex     index     = fields.nodes(a)[i] + component;
-                if (!fields.owned().is_element(index)
-                    || fields.hanging_constraints().is_constrained(index))
-                  continue;
-                if (known.count(index))
-                  {
-                    const auto &other = *known.at(index);
-                    contradiction
-                      |= contradict(*condition, k, *supports[other.support].second, other.value,
-                                    reference_position, fields.grid.box().side_length(component));
-                    continue;
-                  }
-                found[index] = {index, component, support, k, position, reference_position};
-              }
-          }
-      }
-  require(dealii::Utilities::MPI::sum(n_selected, communicator) > 0, condition->path,
-          condition->parameters.type == ConditionType::point_support
-            ? "there is no vertex of the body '" + bodies[body].name + "' at the given point"
-            : "the region selects nothing of the body '" + bodies[body].name + "'",
-          condition->parameters.type == ConditionType::point_support
-            ? "choose a vertex of a background cell inside the body"
-            : "check On and Where; does the body reach that face of the box?");
-  require(dealii::Utilities::MPI::max(static_cast<unsigned int>(contradiction), communicator) == 0,
-          condition->path,
-          "another condition prescribes other values for the same displacement components",
-          "restrict one of them by Where or Components");
-  for (const auto &[index, unknown] : found)
-    prescribed.push_back(unknown);
+  const BoundaryCondition<dim> &condition = *supports[support].second;
+  const auto                   &cell      = fields.grid.cells()[fields.cells()[a].grid_cell];
+  for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+    {
+      const dealii::Point<dim> unit_node = fields.basis.node(i);
+      const dealii::Point<dim> position
+        = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node);
+      const dealii::Point<dim> reference_position
+        = start ? start->reference_position({a, unit_node}) : position;
+      if (!is_prescribed_at(condition, cell, unit_node, reference_position))
+        continue;
+      ++selection.n_nodes;
+      for (unsigned int k = 0; k < condition.components.size(); ++k)
+        {
+          const unsigned int component = condition.components[k];
+          const DofIndex     index     = fields.nodes(a)[i] + component;
+          if (!fields.owned().is_element(index)
+              || fields.hanging_constraints().is_constrained(index))
+            continue;
+          const auto other = found.find(index);
+          if (other != found.end() && other->second.support != support)
+            {
+              selection.n_contradictions += contradict(
+                condition, k, *supports[other->second.support].second, other->second.value,
+                reference_position, fields.grid.box().side_length(component));
+              if (other->second.support < support)
+                continue;
+            }
+          found[index] = {index, component, support, k, position, reference_position};
+        }
+    }
+}
+
+template <int dim>
+void
+StrongSupports<dim>::require_selections(const std::vector<Body<dim>> &bodies,
+                                        std::vector<Selection>       &selections) const
+{
+  JointSum sum;
+  for (auto &selection : selections)
+    {
+      sum.add(selection.n_nodes);
+      sum.add(selection.n_contradictions);
+    }
+  sum.reduce(communicator);
+  for (unsigned int s = 0; s < supports.size(); ++s)
+    {
+      const auto &[body, condition] = supports[s];
+      const bool is_point           = condition->parameters.type == ConditionType::point_support;
+      require(selections[s].n_nodes > 0., condition->path,
+              is_point
+                ? "there is no vertex of the body '" + bodies[body].name + "' at the given point"
+                : "the region selects nothing of the body '" + bodies[body].name + "'",
+              is_point ? "choose a vertex of a background cell inside the body"
+                       : "check On and Where; does the body reach that face of the box?");
+      require(selections[s].n_contradictions == 0., condition->path,
+              "another condition prescribes other values for the same displacement components",
+              "restrict one of them by Where or Components");
+    }
 }
 
 template <int dim>
@@ -174,11 +191,7 @@ StrongSupports<dim>::resultants(const Vector &forces) const
       result[unknown.support].force += force;
       result[unknown.support].moment += moment_of<dim>(unknown.position, force);
     }
-  for (auto &resultant : result)
-    {
-      resultant.force  = dealii::Utilities::MPI::sum(resultant.force, communicator);
-      resultant.moment = dealii::Utilities::MPI::sum(resultant.moment, communicator);
-    }
+  sum_over_processes(result, communicator);
   return result;
 }
 

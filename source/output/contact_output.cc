@@ -4,6 +4,7 @@
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -76,21 +77,45 @@ contact_rows(const ContactPoints<dim> &contact)
 }
 
 template <int dim>
+void
+ContactSummary<dim>::merge(const ContactSummary &other)
+{
+  force += other.force;
+  moment += other.moment;
+  moved_moment += other.moved_moment;
+  open += other.open;
+  stick += other.stick;
+  slip += other.slip;
+  open_points += other.open_points;
+  stick_points += other.stick_points;
+  slip_points += other.slip_points;
+  max_pressure = std::max(max_pressure, other.max_pressure);
+  if (other.minimum_gap < minimum_gap)
+    {
+      minimum_gap = other.minimum_gap;
+      where       = other.where;
+    }
+}
+
+template <int dim>
 std::vector<ContactSummary<dim>>
 summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator)
 {
-  constexpr double                 none = std::numeric_limits<double>::max();
-  std::vector<ContactSummary<dim>> result(contact.pairs().size());
-  for (auto &summary : result)
+  using Table         = std::vector<ContactSummary<dim>>;
+  constexpr auto none = std::numeric_limits<double>::max();
+  Table          own(contact.pairs().size());
+  for (auto &summary : own)
     summary.minimum_gap = none;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       const auto                  &point    = contact.points()[i];
       const auto                  &response = contact.responses()[i];
-      ContactSummary<dim>         &summary  = result[point.pair];
+      ContactSummary<dim>         &summary  = own[point.pair];
       const dealii::Tensor<1, dim> force    = point.weight * response.traction(point.normal);
       summary.force += force;
       summary.moment += moment_of<dim>(point.position, force);
+      summary.moved_moment
+        += moment_of<dim>(point.position + contact.mean_displacements()[i], force);
       // Slivers of the surface carry nothing and would decide which extreme is sampled.
       if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1)
           && contact.gap(i) < summary.minimum_gap)
@@ -103,27 +128,24 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
        : status == ContactStatus::stick ? summary.stick
                                         : summary.slip)
         += point.weight;
+      (status == ContactStatus::open    ? summary.open_points
+       : status == ContactStatus::stick ? summary.stick_points
+                                        : summary.slip_points)
+        += 1.;
+      summary.max_pressure = std::max(summary.max_pressure, response.pressure);
     }
-  using dealii::Utilities::MPI::sum;
+  auto result = dealii::Utilities::MPI::all_reduce<Table>(
+    own, communicator, [](const Table &a, const Table &b) {
+      Table both(a);
+      for (unsigned int p = 0; p < both.size(); ++p)
+        both[p].merge(b[p]);
+      return both;
+    });
   for (auto &summary : result)
     {
-      summary.force  = sum(summary.force, communicator);
-      summary.moment = sum(summary.moment, communicator);
-      // The position comes from the process that holds the smallest gap, the lowest one if several
-      // do.
-      const double       smallest = dealii::Utilities::MPI::min(summary.minimum_gap, communicator);
-      const unsigned int rank     = dealii::Utilities::MPI::this_mpi_process(communicator);
-      const unsigned int holder   = dealii::Utilities::MPI::min(
-          summary.minimum_gap == smallest ? rank : dealii::numbers::invalid_unsigned_int,
-        communicator);
-      summary.where       = dealii::Utilities::MPI::broadcast(communicator, summary.where, holder);
-      summary.minimum_gap = smallest;
       if (summary.minimum_gap == none)
         summary.minimum_gap = std::numeric_limits<double>::quiet_NaN();
       summary.max_penetration = std::max(0., -summary.minimum_gap);
-      summary.open            = sum(summary.open, communicator);
-      summary.stick           = sum(summary.stick, communicator);
-      summary.slip            = sum(summary.slip, communicator);
     }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -16,12 +17,13 @@ namespace scree
 {
 namespace
 {
+/** A line of the file. */
 std::string
-header(const std::vector<std::string> &columns)
+joined(const std::vector<std::string> &words)
 {
   std::string text;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    text += (i == 0 ? "" : ",") + columns[i];
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : ",") + words[i];
   return text + "\n";
 }
 
@@ -39,7 +41,7 @@ CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> 
     : file_name(file_name)
     , file(opened(file_name, O_CREAT | O_TRUNC))
     , n_columns(columns.size())
-    , pending(header(columns))
+    , pending(joined(columns))
 {
   flush();
 }
@@ -56,7 +58,7 @@ CsvTable::CsvTable(const std::string &file_name, const std::vector<std::string> 
   std::size_t   n_lines = 0, n_bytes = 0;
   while (n_lines <= n_rows && std::getline(old, line) && !old.eof())
     {
-      require(n_lines > 0 || line + "\n" == header(columns), file_name,
+      require(n_lines > 0 || line + "\n" == joined(columns), file_name,
               "has other columns than this run", "it was changed: start the run anew");
       n_bytes += line.size() + 1;
       ++n_lines;
@@ -75,13 +77,24 @@ CsvTable::~CsvTable()
 void
 CsvTable::add_row(const std::vector<double> &values)
 {
-  AssertThrow(values.size() == n_columns, dealii::ExcDimensionMismatch(values.size(), n_columns));
-  std::ostringstream row;
-  row << std::setprecision(12);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    row << (i == 0 ? "" : ",") << values[i];
-  row << '\n';
-  pending += row.str();
+  std::vector<std::string> words(values.size());
+  std::transform(values.begin(), values.end(), words.begin(), word);
+  add_row(words);
+}
+
+std::string
+CsvTable::word(const double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(12) << value;
+  return text.str();
+}
+
+void
+CsvTable::add_row(const std::vector<std::string> &words)
+{
+  AssertThrow(words.size() == n_columns, dealii::ExcDimensionMismatch(words.size(), n_columns));
+  pending += joined(words);
   ++row_count;
   flush();
 }

@@ -44,45 +44,55 @@ std::vector<std::vector<double>>
 sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<dim> &fields,
        const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u, const bool must_exist)
 {
-  const MPI_Comm                   communicator = fields.grid.communicator();
-  const unsigned int               rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const unsigned int               n_columns = sample_columns<dim>().size();
+  const MPI_Comm     communicator = fields.grid.communicator();
+  const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int n_columns    = sample_columns<dim>().size();
+  // A row ends with whether it was found.
+  std::vector<double> values(probe.n_points * (n_columns + 1), 0.);
+  const auto          place = [&](const unsigned int i) {
+    return dealii::Point<dim>(probe.start
+                              + (probe.n_points == 1 ? 0. : double(i) / (probe.n_points - 1))
+                                  * (probe.end - probe.start));
+  };
+  for (unsigned int i = 0; i < probe.n_points; ++i)
+    {
+      const dealii::Point<dim> point = place(i);
+      if (fields.grid.locate(point).rank != rank)
+        continue;
+      const int cell = fields.nearest_active_cell(point, body);
+      if (cell < 0)
+        continue;
+      const auto sampled = bulk.sample(cell, fields.unit_point(cell, point), u);
+      double    *value   = &values[i * (n_columns + 1)];
+      for (unsigned int d = 0; d < dim; ++d)
+        *value++ = point[d];
+      for (unsigned int d = 0; d < dim; ++d)
+        *value++ = sampled.displacement[d];
+      for (unsigned int k = 0; k < dim; ++k)
+        for (unsigned int j = k; j < dim; ++j)
+          *value++ = sampled.stress[k][j];
+      if (dim == 2)
+        *value++ = sampled.out_of_plane_stress;
+      *value++ = von_mises(sampled.stress, sampled.out_of_plane_stress);
+      *value   = 1.;
+    }
+  dealii::Utilities::MPI::sum(values, communicator, values);
   std::vector<std::vector<double>> rows;
   for (unsigned int i = 0; i < probe.n_points; ++i)
     {
-      const double             t     = probe.n_points == 1 ? 0. : double(i) / (probe.n_points - 1);
-      const dealii::Point<dim> point = probe.start + t * (probe.end - probe.start);
-      std::vector<double>      row(n_columns + 1, 0.);
-      if (fields.grid.locate(point).rank == rank)
+      const auto first    = values.begin() + i * (n_columns + 1);
+      const bool is_found = first[n_columns] == 1.;
+      if (!is_found && must_exist)
         {
-          const int cell = fields.nearest_active_cell(point, body);
-          if (cell >= 0)
-            {
-              const auto   values = bulk.sample(cell, fields.unit_point(cell, point), u);
-              unsigned int c      = 0;
-              for (unsigned int d = 0; d < dim; ++d)
-                row[c++] = point[d];
-              for (unsigned int d = 0; d < dim; ++d)
-                row[c++] = values.displacement[d];
-              for (unsigned int k = 0; k < dim; ++k)
-                for (unsigned int j = k; j < dim; ++j)
-                  row[c++] = values.stress[k][j];
-              if (dim == 2)
-                row[c++] = values.out_of_plane_stress;
-              row[c++] = von_mises(values.stress, values.out_of_plane_stress);
-              row[c]   = 1.; // found
-            }
+          std::ostringstream where;
+          where << place(i);
+          throw UserError("Output/Probes/" + probe.name,
+                          "the body '" + probe.body + "' has no cell at the point " + where.str(),
+                          "choose points inside the body");
         }
-      dealii::Utilities::MPI::sum(row, communicator, row);
-      std::ostringstream where;
-      where << point;
-      if (row.back() != 1. && !must_exist)
-        row.assign(n_columns + 1, std::numeric_limits<double>::quiet_NaN());
-      require(row.back() == 1. || !must_exist, "Output/Probes/" + probe.name,
-              "the body '" + probe.body + "' has no cell at the point " + where.str(),
-              "choose points inside the body");
-      row.pop_back();
-      rows.push_back(row);
+      rows.emplace_back(first, first + n_columns);
+      if (!is_found)
+        rows.back().assign(n_columns, std::numeric_limits<double>::quiet_NaN());
     }
   return rows;
 }

@@ -46,6 +46,45 @@ add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
 }
 
 template <int dim>
+std::vector<std::string>
+pair_columns(const std::vector<ContactPair> &pairs)
+{
+  std::vector<std::string> names;
+  for (const ContactPair &pair : pairs)
+    {
+      add_resultant_names<dim>(pair.name, names);
+      for (const std::string column : {"minimum_gap", "max_penetration", "open", "stick", "slip"})
+        names.push_back(pair.name + "." + column);
+    }
+  return names;
+}
+
+/** Columns of pairs on a moving geometry: see MotionRecord::force_jumps. */
+template <int dim>
+std::vector<std::string>
+transfer_columns(const std::vector<ContactPair> &pairs)
+{
+  std::vector<std::string> names;
+  for (const ContactPair &pair : pairs)
+    for (unsigned int d = 0; d < dim; ++d)
+      names.push_back(pair.name + ".transfer_" + axes[d]);
+  return names;
+}
+
+/** The entries of a row whose columns are not left out. */
+template <typename T>
+std::vector<T>
+kept(const std::vector<T> &row, const std::vector<std::string> &names,
+     const std::set<std::string> &left_out)
+{
+  std::vector<T> result;
+  for (unsigned int i = 0; i < row.size(); ++i)
+    if (left_out.count(names[i]) == 0)
+      result.push_back(row[i]);
+  return result;
+}
+
+template <int dim>
 void
 add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &moment,
               std::vector<double> &values)
@@ -63,6 +102,7 @@ Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>>
     : directory(directory)
     , bodies(bodies)
     , probes(probes)
+    , long_tables(directory, bodies)
 {
 }
 
@@ -77,18 +117,30 @@ Results<dim>::set_discretization(const Fields<dim>        &new_fields,
 }
 
 template <int dim>
+std::set<std::string>
+Results<dim>::left_out(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
+{
+  if (contact.pairs().size() <= most_pairs_in_history)
+    return {};
+  const auto            names = pair_columns<dim>(contact.pairs());
+  std::set<std::string> result(names.begin(), names.end());
+  if (!equilibrium.is_linear_but_for_contact())
+    {
+      const auto transfers = transfer_columns<dim>(contact.pairs());
+      result.insert(transfers.begin(), transfers.end());
+    }
+  return result;
+}
+
+template <int dim>
 std::vector<std::string>
 Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
                               const ContactPoints<dim> &contact) const
 {
   std::vector<std::string> names
     = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
-  for (const ContactPair &pair : contact.pairs())
-    {
-      add_resultant_names<dim>(pair.name, names);
-      for (const std::string column : {"minimum_gap", "max_penetration", "open", "stick", "slip"})
-        names.push_back(pair.name + "." + column);
-    }
+  const auto of_pairs = pair_columns<dim>(contact.pairs());
+  names.insert(names.end(), of_pairs.begin(), of_pairs.end());
   for (const std::string &condition : equilibrium.condition_names())
     add_resultant_names<dim>(condition, names);
   for (const auto &body : bodies)
@@ -107,9 +159,8 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
     if (!body.is_rigid())
       for (const std::string column : {"volume", "point_volume", "mass", "points"})
         names.push_back(body.name + "." + column);
-  for (const ContactPair &pair : contact.pairs())
-    for (unsigned int d = 0; d < dim; ++d)
-      names.push_back(pair.name + ".transfer_" + axes[d]);
+  const auto transfers = transfer_columns<dim>(contact.pairs());
+  names.insert(names.end(), transfers.begin(), transfers.end());
   names.push_back("islands");
   names.push_back("widened_transfers");
   return names;
@@ -171,14 +222,20 @@ Results<dim>::last_values() const
 template <int dim>
 void
 Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                             const ContactPoints<dim> &contact, const Bulk<dim> &bulk,
+                             const ContactPoints<dim> &contact,
+                             const CutQuadrature<dim> &quadrature, const Bulk<dim> &bulk,
                              const Vector &u)
 {
-  history_names               = history_columns(equilibrium, contact);
+  history_names        = history_columns(equilibrium, contact);
+  names_left_out       = left_out(equilibrium, contact);
+  is_moving            = !equilibrium.is_linear_but_for_contact();
+  const auto ghosted_u = equilibrium.with_ghosts(u);
+  const auto summaries = summarise_contact(contact, fields->grid.communicator());
+  auto       motions   = mean_motions(*fields, bodies, quadrature, bulk.step_start(), ghosted_u);
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
-  for (const auto &summary : summarise_contact(contact, fields->grid.communicator()))
+  for (const auto &summary : summaries)
     {
       add_resultant<dim>(summary.force, summary.moment, values);
       for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
@@ -187,8 +244,10 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
     }
   for (const auto &resultant : equilibrium.resultants(u))
     add_resultant<dim>(resultant.force, resultant.moment, values);
-  for (const auto &state : equilibrium.rigid_bodies().states(equilibrium.with_ghosts(u)))
+  for (const auto &state : equilibrium.rigid_bodies().states(ghosted_u))
     {
+      const dealii::Point<dim> &reference = bodies[state.body].rigid->reference_point;
+      motions[state.body] = {reference + state.displacement, state.displacement, state.rotation};
       add_resultant<dim>(state.displacement, state.rotation, values);
       add_resultant<dim>(state.force, state.moment, values);
     }
@@ -201,6 +260,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                               energies.contact, energies.dissipation, energies.plastic,
                               energies.external_work, energies.transfer, energies.balance_error()})
     values.push_back(energy);
+  long_tables.gather(record.step, record.time, contact.pairs(), summaries, motions, is_moving);
 }
 
 template <int dim>
@@ -215,6 +275,7 @@ Results<dim>::gather_motion(const MotionRecord<dim> &motion)
   for (const dealii::Tensor<1, dim> &jump : motion.force_jumps)
     for (unsigned int d = 0; d < dim; ++d)
       history_row.push_back(jump[d]);
+  long_tables.add_transfers(motion.force_jumps);
   history_row.push_back(motion.n_islands);
   history_row.push_back(motion.transfer_report.widened + motion.transfer_report.lowered);
 }
@@ -236,8 +297,10 @@ Results<dim>::write_history()
   if (!is_first)
     return;
   if (!history)
-    history = std::make_unique<CsvTable>(directory + "/history.csv", history_names);
-  history->add_row(history_row);
+    history = std::make_unique<CsvTable>(directory + "/history.csv",
+                                         kept(history_names, history_names, names_left_out));
+  history->add_row(kept(history_row, history_names, names_left_out));
+  long_tables.write();
 }
 
 template <int dim>
@@ -316,7 +379,8 @@ bool
 Results<dim>::flush()
 {
   const bool history_is_written = !history || history->flush();
-  return (!probe_table || probe_table->flush()) && history_is_written;
+  const bool probes_are_written = !probe_table || probe_table->flush();
+  return long_tables.flush() && probes_are_written && history_is_written;
 }
 
 template <int dim>
@@ -324,7 +388,7 @@ ResultsRecord
 Results<dim>::record() const
 {
   return {body_records, contact_records, history ? history->n_rows() : 0,
-          probe_table ? probe_table->n_rows() : 0};
+          probe_table ? probe_table->n_rows() : 0, long_tables.record()};
 }
 
 template <int dim>
@@ -336,8 +400,12 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
   contact_records = record.contact;
   if (!is_first)
     return;
-  history = std::make_unique<CsvTable>(
-    directory + "/history.csv", history_columns(equilibrium, contact), record.n_history_rows);
+  const auto names = history_columns(equilibrium, contact);
+  history          = std::make_unique<CsvTable>(directory + "/history.csv",
+                                       kept(names, names, left_out(equilibrium, contact)),
+                                       record.n_history_rows);
+  long_tables.resume(record.long_tables, !equilibrium.is_linear_but_for_contact(),
+                     !contact.pairs().empty());
   if (record.n_probe_rows > 0)
     probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),
                                              record.n_probe_rows);

@@ -423,13 +423,14 @@ check_edges_of_regions()
   const StartedStep<dim> flows(text, "J2 small strain", moved, 0.05);
   for (unsigned int r = 0; r < 3; ++r)
     {
-      const auto &region   = elastic.boundary_terms.regions()[r];
-      const auto  covered  = coverage(*elastic.cut.fields, *elastic.cut.level_set_nodes,
-                                      elastic.cut.bodies[0], region, elastic.start);
-      const auto  is_outer = outer_edge(*elastic.cut.fields, covered);
-      const auto  along    = [&](const unsigned int a) {
+      const auto         &region = elastic.boundary_terms.regions()[r];
+      std::vector<double> covered(elastic.cut.fields->n_owned_cells(), 0.);
+      set_coverage(*elastic.cut.fields, *elastic.cut.level_set_nodes, elastic.cut.bodies[0], region,
+                   elastic.start, covered);
+      const auto is_outer = outer_edge(*elastic.cut.fields, covered);
+      const auto along    = [&](const unsigned int a) {
         return std::lround(
-              2. * (elastic.cut.grid.cells()[elastic.cut.fields->cells()[a].grid_cell].lower[0] + 1.));
+             2. * (elastic.cut.grid.cells()[elastic.cut.fields->cells()[a].grid_cell].lower[0] + 1.));
       };
       for (const auto &point : region.points)
         {

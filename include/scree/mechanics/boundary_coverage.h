@@ -7,14 +7,14 @@
 namespace scree
 {
 /**
- * The share of the surface in each owned cell that a region covers, c_K = |R in K|/|S in K|, to
- * 2^-10 in 2D, 2^-5 in 3D; zero where the region has no points. The share of quadrature points
- * would not do: at degree 1 a cell has two.
+ * Sets in `coverage`, of all owned cells, the share of the surface that a region covers in the
+ * cells where it has points, c_K = |R in K|/|S in K|, to 2^-10 in 2D, 2^-5 in 3D. The share of
+ * quadrature points would not do: at degree 1 a cell has two.
  */
 template <int dim>
-std::vector<double> coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                             const Body<dim> &body, const BoundaryRegion<dim> &region,
-                             const StepStart<dim> &start);
+void set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+                  const Body<dim> &body, const BoundaryRegion<dim> &region,
+                  const StepStart<dim> &start, std::vector<double> &coverage);
 
 /**
  * Whether each owned cell K is on the edge of a region and outside of it rather than inside:

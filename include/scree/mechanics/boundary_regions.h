@@ -31,8 +31,13 @@ struct BoundaryRegion
   std::vector<BoundaryPoint<dim>> points;
   double                          area;             //!< over all processes
   dealii::Point<dim>              centre;           //!< of the region, over all processes
+  double                          polar_moment;     //!< int x^2 + y^2 about the centre, likewise
   unsigned int                    first_multiplier; //!< of a mean support
 };
+
+/** Squared distance of a point from the axis of the mean rotation: z through the centre. */
+template <int dim>
+double squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point);
 
 /**
  * The regions of all conditions that are integrals, on this process: points on the cut surface, or

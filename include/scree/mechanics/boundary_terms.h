@@ -149,9 +149,8 @@ private:
   void   mean_row(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                   const unsigned int m, std::vector<double> &row) const;
   double multiplier_scale(const BoundaryRegion<dim> &region) const;
-  /** Squared distance of a point from the axis of the mean rotation: z through the centre. */
-  double squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point) const;
-  /** Adds the force and moment of the multipliers of a mean support. */
+  /** Adds the force and moment of the multipliers of a mean support on the process that has them.
+   */
   void add_multiplier_resultant(const BoundaryRegion<dim> &region, const Vector &u,
                                 Resultant<dim> &resultant) const;
 

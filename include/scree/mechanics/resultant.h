@@ -1,6 +1,9 @@
 #pragma once
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
+
+#include <vector>
 
 namespace scree
 {
@@ -11,6 +14,10 @@ struct Resultant
   dealii::Tensor<1, dim> force;
   dealii::Tensor<1, 3>   moment; //!< 2D: only the last component
 };
+
+/** Sums resultants over all processes with one reduction. Collective. */
+template <int dim>
+void sum_over_processes(std::vector<Resultant<dim>> &resultants, const MPI_Comm communicator);
 
 /** Moment of a force at a position about the origin. */
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/boundary_terms.h>
 
+#include <map>
 #include <vector>
 
 namespace scree
@@ -63,11 +64,20 @@ public:
 private:
   double increment(const PrescribedUnknown<dim> &unknown, const double time,
                    const double start_time) const;
-  void   add_support(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                     const unsigned int support);
-  bool   is_prescribed_at(const BoundaryCondition<dim> &condition, const GridCell<dim> &cell,
-                          const dealii::Point<dim> &unit_node,
-                          const dealii::Point<dim> &position) const;
+  /** Of a support, on this process, then on all; counts. */
+  struct Selection
+  {
+    double n_nodes = 0., n_contradictions = 0.;
+  };
+  /** Adds what a support prescribes in a cell of its body; the first support of an unknown counts.
+   */
+  void select(const Fields<dim> &fields, const unsigned int a, const unsigned int support,
+              Selection &selection, std::map<DofIndex, PrescribedUnknown<dim>> &found) const;
+  void require_selections(const std::vector<Body<dim>> &bodies,
+                          std::vector<Selection>       &selections) const;
+  bool is_prescribed_at(const BoundaryCondition<dim> &condition, const GridCell<dim> &cell,
+                        const dealii::Point<dim> &unit_node,
+                        const dealii::Point<dim> &position) const;
 
   const StepStart<dim>                                                *start;
   MPI_Comm                                                             communicator;

@@ -13,10 +13,23 @@ struct ContactSummary
 {
   dealii::Tensor<1, dim> force;  //!< on body b
   dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
+  dealii::Tensor<1, 3>   moved_moment; //!< the same with the points where the surface has moved to
   double                 minimum_gap = 0.;     //!< smallest gap, negative: penetration [L]
   dealii::Point<dim>     where;                //!< of the smallest gap
   double                 max_penetration = 0.; //!< largest penetration [L]
-  double                 open = 0., stick = 0., slip = 0.; //!< length or area by status
+  double                 max_pressure    = 0.; //!< [force/area]
+  double                 open = 0., stick = 0., slip = 0.;      //!< length or area by status
+  double open_points = 0., stick_points = 0., slip_points = 0.; //!< number of points by status
+
+  /** Adds what other points of the same pair do. */
+  void merge(const ContactSummary &other);
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &force &moment &moved_moment &minimum_gap &where &max_penetration &max_pressure;
+    archive &open &stick &slip &open_points &stick_points                     &slip_points;
+  }
 };
 
 /** The summary of every pair after the last evaluation. */

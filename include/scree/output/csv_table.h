@@ -27,8 +27,14 @@ public:
   CsvTable &operator=(const CsvTable &) = delete;
   ~CsvTable();
 
-  /** Appends a row with as many values as there are columns, 12 significant digits. */
+  /** Appends a row with as many values as there are columns, as word() has them. */
   void add_row(const std::vector<double> &values);
+
+  /** The same of numbers and names. */
+  void add_row(const std::vector<std::string> &words);
+
+  /** A number with 12 significant digits. */
+  static std::string word(const double value);
 
   /**
    * Writes what is not written yet; returns whether nothing is left.

@@ -3,12 +3,14 @@
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
+#include <scree/output/long_tables.h>
 #include <scree/output/probes.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,17 +45,18 @@ struct ResultsRecord
 {
   std::vector<std::pair<double, std::string>> bodies, contact; //!< of the PVD records
   std::size_t                                 n_history_rows = 0, n_probe_rows = 0;
+  LongTablesRecord                            long_tables;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &bodies &contact &n_history_rows &n_probe_rows;
+    archive &bodies &contact &n_history_rows &n_probe_rows &long_tables;
   }
 };
 
 /**
- * The files of a run: history.csv with a row per load step, VTU and CSV files of bodies and contact
- * with PVD records, tables of probes and lines. All functions are collective.
+ * The files of a run: history.csv with a row per load step, see also LongTables, VTU and CSV files
+ * of bodies and contact with PVD records, tables of probes and lines. All functions are collective.
  */
 template <int dim>
 class Results
@@ -61,13 +64,19 @@ class Results
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+  /** history.csv has columns of pairs only if there are at most as many. */
+  static constexpr unsigned int most_pairs_in_history = 30;
+
   Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes);
 
   /** What the next results refer to; to be told whenever it was made anew. */
   void set_discretization(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes);
 
-  /** Names of the columns of history.csv, then those of probes.csv after the first. */
+  /**
+   * Names of the columns of history.csv, including those of pairs if they are too many for the
+   * file, then those of probes.csv after the first.
+   */
   std::vector<std::string> columns(const Equilibrium<dim>   &equilibrium,
                                    const ContactPoints<dim> &contact) const;
 
@@ -78,14 +87,15 @@ public:
   /** The values of columns() at the last write_history() and write_probes(), on all processes. */
   std::vector<double> last_values() const;
 
-  /** Gathers the row of an accepted state for history.csv. */
+  /** Gathers the rows of an accepted state for history.csv and the long tables. */
   void gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
-                      const ContactPoints<dim> &contact, const Bulk<dim> &bulk, const Vector &u);
+                      const ContactPoints<dim> &contact, const CutQuadrature<dim> &quadrature,
+                      const Bulk<dim> &bulk, const Vector &u);
 
   /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
   void gather_motion(const MotionRecord<dim> &motion);
 
-  /** Writes the gathered row. @throws UserError if it has a number that is not finite */
+  /** Writes the gathered rows. @throws UserError if that of history.csv has no finite number */
   void write_history();
 
   /** Body VTU and lines; whether all was written, known to the first process. */
@@ -120,8 +130,11 @@ private:
                                                 const Vector               &ghosted_u) const;
   std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
                                                    const ContactPoints<dim> &contact) const;
-  std::vector<std::string>         probe_columns() const;
-  std::vector<std::string>         probe_table_columns() const;
+  /** Those of pairs, if history.csv has none of them. */
+  std::set<std::string>    left_out(const Equilibrium<dim>   &equilibrium,
+                                    const ContactPoints<dim> &contact) const;
+  std::vector<std::string> probe_columns() const;
+  std::vector<std::string> probe_table_columns() const;
   /** Adds a file to a PVD record; false if the file, empty, or the record was not written. */
   bool         add_picture(const double time, const std::string &file, const std::string &pvd,
                            std::vector<std::pair<double, std::string>> &records) const;
@@ -136,7 +149,10 @@ private:
   std::unique_ptr<BodyOutput<dim>>            body_output;
   bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
+  LongTables<dim>                             long_tables;
   std::vector<std::string>                    history_names;
+  std::set<std::string>                       names_left_out;
+  bool                                        is_moving = false;
   std::vector<double>                         history_row, probe_row; //!< the last ones
   std::vector<std::pair<double, std::string>> body_records, contact_records;
 };

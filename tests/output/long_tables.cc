@@ -1,0 +1,198 @@
+// The tables with a row per contact and per body, the motions in them, and what they cost on many
+// processes.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/output/long_tables.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "../mechanics/equilibrium_model.h"
+
+namespace
+{
+unsigned int n_collectives = 0;
+} // namespace
+
+// The profiling interface of MPI: all reductions and broadcasts are counted.
+extern "C" int
+MPI_Allreduce(const void *send, void *receive, int count, MPI_Datatype type, MPI_Op operation,
+              MPI_Comm communicator)
+{
+  ++n_collectives;
+  return PMPI_Allreduce(send, receive, count, type, operation, communicator);
+}
+
+extern "C" int
+MPI_Bcast(void *buffer, int count, MPI_Datatype type, int root, MPI_Comm communicator)
+{
+  ++n_collectives;
+  return PMPI_Bcast(buffer, count, type, root, communicator);
+}
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+/** n^2 discs on springs that nearly touch. */
+std::string
+discs(const unsigned int n)
+{
+  std::vector<std::pair<std::string, std::string>> bodies;
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      bodies.emplace_back(
+        "d" + std::to_string(i * n + j),
+        ball_text(std::to_string(i + 0.5) + ", " + std::to_string(j + 0.5), 0.49)
+          + conditions_text({{"all", "set On = surface\nset Type = springs\nset Value = 1; 1"},
+                             {"right", "set On = surface\nset Type = traction\n"
+                                       "set Where = x > 0\nset Value = 1; 0"}}));
+  const std::string size = std::to_string(n);
+  return grid_text("0, 0", size + ", " + size, size + ", " + size, 3) + degree_text(1)
+         + bodies_text(bodies) + contact_text("set Law = frictionless");
+}
+
+/** The number of collective calls of all tables of a packing. */
+unsigned int
+collectives_of_tables(const unsigned int n)
+{
+  EquilibriumModel<2> model(discs(n));
+  const auto          u = model.equilibrium.with_ghosts(model.state.displacement);
+  model.contact.evaluate(u, model.state.contact);
+  n_collectives = 0;
+  EXPECT_EQ(summarise_contact(model.contact, MPI_COMM_WORLD).size(), model.contact.pairs().size());
+  EXPECT_EQ(model.boundary_terms.resultants(u, 0.).size(), 2 * n * n);
+  EXPECT_EQ(
+    mean_motions<2>(*model.cut.fields, model.cut.bodies, model.quadrature, nullptr, u).size(),
+    n * n);
+  return n_collectives;
+}
+
+TEST(LongTablesMPI, CollectiveCallsDoNotGrowWithTheBodies)
+{
+  const unsigned int n_of_nine = collectives_of_tables(3);
+  EXPECT_EQ(n_of_nine, collectives_of_tables(6));
+  // Packed summaries are broadcast with their size.
+  EXPECT_LE(n_of_nine, 5u);
+}
+
+TEST(LongTablesMPI, MotionOfADisc)
+{
+  EquilibriumModel<2> model(grid_text("-1, -1", "1, 1", "4, 4", 3) + degree_text(1)
+                            + bodies_text({{"disc", ball_text("0.1, -0.05", 0.7)}}));
+  // u = A x + b
+  const Tensor<2, 2> A({{-0.1, -0.4}, {0.3, 0.05}});
+  const Tensor<1, 2> b({0.02, -0.3});
+  const auto        &fields = *model.cut.fields;
+  auto               u      = model.state.displacement;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      {
+        const auto        &cell = fields.grid.cells()[fields.cells()[a].grid_cell];
+        const Tensor<1, 2> x    = cell.lower + cell.size * Tensor<1, 2>(fields.basis.node(i));
+        for (unsigned int c = 0; c < 2; ++c)
+          if (fields.owned().is_element(fields.nodes(a)[i] + c))
+            u(fields.nodes(a)[i] + c) = (A * x + b)[c];
+      }
+  u.compress(VectorOperation::insert);
+  const auto motion = mean_motions<2>(fields, model.cut.bodies, model.quadrature, nullptr,
+                                      model.equilibrium.with_ghosts(u))[0];
+  // The polygon that approximates the disc is not quite symmetric.
+  const Tensor<1, 2> centroid = motion.position - motion.displacement;
+  EXPECT_NEAR((centroid - Point<2>(0.1, -0.05)).norm(), 0., 1e-4);
+  EXPECT_NEAR((motion.displacement - A * centroid - b).norm(), 0., 1e-12);
+  EXPECT_NEAR(motion.rotation[2], std::atan2(0.3 + 0.4, 2. - 0.1 + 0.05), 1e-4);
+}
+
+TEST(RotationVector, OfRotationTimesStretch)
+{
+  for (const double angle : {0., 1e-9, 0.3, 2., -3.})
+    {
+      const Tensor<2, 2> R(
+        {{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}});
+      const Tensor<2, 2> U({{1.2, 0.1}, {0.1, 0.7}});
+      EXPECT_NEAR(rotation_vector<2>(R * U)[2], angle, 1e-14);
+      // Rodrigues' formula about an axis.
+      const Tensor<1, 3> axis({2. / 3., -1. / 3., 2. / 3.});
+      Tensor<2, 3>       cross(
+              {{0., -axis[2], axis[1]}, {axis[2], 0., -axis[0]}, {-axis[1], axis[0], 0.}});
+      const Tensor<2, 3> identity(unit_symmetric_tensor<3>());
+      const Tensor<2, 3> Q
+        = identity + std::sin(angle) * cross + (1. - std::cos(angle)) * cross * cross;
+      const Tensor<2, 3> V({{20., 1., 0.}, {1., 14., 2.}, {0., 2., 17.}});
+      EXPECT_NEAR((rotation_vector<3>(Q * V) - angle * axis).norm(), 0., 1e-13);
+    }
+}
+
+std::string
+content(const std::string &file_name)
+{
+  std::ifstream      file(file_name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/** A step of two bodies that touch at (1, 0) or not; body b has moved to (2, 0). */
+void
+write_step(LongTables<2> &tables, const double step, const bool is_closed)
+{
+  ContactSummary<2> summary;
+  if (is_closed)
+    {
+      summary.force        = Tensor<1, 2>({3., 1.});
+      summary.moved_moment = moment_of<2>(Point<2>(1., 0.), summary.force);
+      summary.moment       = moment_of<2>(Point<2>(0.5, 0.), summary.force);
+      summary.stick_points = 2.;
+    }
+  std::vector<MeanMotion<2>> motions(2);
+  motions[1].position = Point<2>(2., 0.);
+  tables.gather(step, 0.5 * step, {{0, 1, "a-b", {}}}, {summary}, motions, true);
+  tables.add_transfers({Tensor<1, 2>({0.25, 0.})});
+  tables.write();
+}
+
+TEST(LongTables, RowsOfWhatIsOrWasClosedAlsoAfterAResume)
+{
+  char                name[]    = "/tmp/scree_tables_XXXXXX";
+  const std::string   directory = mkdtemp(name);
+  EquilibriumModel<2> model(
+    grid_text("-1, -1", "1, 1", "4, 4", 1) + degree_text(1)
+    + bodies_text({{"a", ball_text("-0.5, 0", 0.4)}, {"b", ball_text("0.5, 0", 0.4)}}));
+  const auto      &bodies = model.cut.bodies;
+  LongTablesRecord record;
+  {
+    LongTables<2> tables(directory, bodies);
+    write_step(tables, 1., false);
+    write_step(tables, 2., true);
+    record = tables.record();
+    write_step(tables, 3., false);
+  }
+  EXPECT_EQ(record.n_contact_rows, 1u);
+  EXPECT_EQ(record.n_body_rows, 4u);
+  const std::string contacts = content(directory + "/contacts.csv");
+  // The moments on a about (0, 0), on b about (2, 0).
+  EXPECT_NE(contacts.find("\n2,1,a-b,a,b,3,1,0.5,"), std::string::npos) << contacts;
+  EXPECT_NE(contacts.find(",0,2,0,-1,-1,0.25,0\n3,1.5,a-b,a,b,0,0,0,"), std::string::npos)
+    << contacts;
+  const std::string grains = content(directory + "/grains.csv");
+  EXPECT_NE(grains.find("\n2,1,a,0,0,0,0,0,-3,-1,-1,1\n2,1,b,2,0,0,0,0,3,1,-1,1\n"),
+            std::string::npos)
+    << grains;
+  {
+    LongTables<2> tables(directory, bodies);
+    tables.resume(record, true, true);
+    write_step(tables, 3., false);
+  }
+  EXPECT_EQ(content(directory + "/contacts.csv"), contacts);
+  EXPECT_EQ(content(directory + "/grains.csv"), grains);
+  std::filesystem::remove_all(directory);
+}
+} // namespace
+} // namespace scree
