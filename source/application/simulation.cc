@@ -37,7 +37,8 @@ Simulation<dim>::set_up()
 
   {
     const Timings::Scope scope(timings, "geometry");
-    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(), lattice_margin());
+    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(), lattice_margin(),
+                              is_moving());
   }
   for (unsigned int b = 0; b < bodies.size() && is_moving(); ++b)
     {

@@ -171,7 +171,7 @@ template <int dim>
 std::vector<Body<dim>>
 make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
             const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
-            const LatticeFrame<dim> &frame, const double margin)
+            const LatticeFrame<dim> &frame, const double margin, const bool is_moving)
 {
   LatticeFrame<dim> wide_frame = frame;
   wide_frame.box.extend(margin);
@@ -189,15 +189,18 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
-      bodies.push_back(Body<dim>{body.name,
-                                 body.path,
-                                 make_lattice(*shape, body_frame, margin, body.path + "/Shape"),
-                                 box,
-                                 material,
-                                 is_rigid ? make_rigid_body(body, shape, box) : nullptr,
-                                 Expression<dim>(body.body_force, dim, body.path + "/Body force"),
-                                 conditions,
-                                 {}});
+      const double most_nodes
+        = is_moving && !is_rigid ? largest_dense_lattice : largest_cheap_lattice;
+      bodies.push_back(
+        Body<dim>{body.name,
+                  body.path,
+                  make_lattice(shape, body_frame, margin, body.path + "/Shape", most_nodes),
+                  box,
+                  material,
+                  is_rigid ? make_rigid_body(body, shape, box) : nullptr,
+                  Expression<dim>(body.body_force, dim, body.path + "/Body force"),
+                  conditions,
+                  {}});
       bodies.back().shape = shape;
       if (is_rigid)
         bodies.back().pose = RigidPose<dim>(*bodies.back().rigid, {});
@@ -217,7 +220,7 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
   template std::vector<Body<dim>>           make_bodies(                                           \
               const std::vector<BodyParameters<dim>> &,                                            \
               const std::map<std::string, std::shared_ptr<const Material<dim>>> &,                 \
-              const LatticeFrame<dim> &, const double);
+              const LatticeFrame<dim> &, const double, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

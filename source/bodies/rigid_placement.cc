@@ -3,6 +3,7 @@
 #include <scree/level_set/reboxing.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 namespace scree
@@ -14,7 +15,7 @@ template <int dim>
 class PlacedShape : public Shape<dim>
 {
 public:
-  PlacedShape(const Shape<dim> &shape, const RigidPose<dim> &pose)
+  PlacedShape(const std::shared_ptr<const Shape<dim>> &shape, const RigidPose<dim> &pose)
       : shape(shape)
       , pose(pose)
   {
@@ -22,18 +23,18 @@ public:
 
   double signed_distance(const dealii::Point<dim> &x) const override
   {
-    return shape.signed_distance(pose.initial_position(x));
+    return shape->signed_distance(pose.initial_position(x));
   }
 
   bool is_distance() const override
   {
-    return shape.is_distance();
+    return shape->is_distance();
   }
 
   /** Around the moved corners of the shape's box. */
   dealii::BoundingBox<dim> bounding_box() const override
   {
-    const dealii::BoundingBox<dim>  box = shape.bounding_box();
+    const dealii::BoundingBox<dim>  box = shape->bounding_box();
     std::vector<dealii::Point<dim>> corners;
     for (unsigned int i = 0; i < dealii::GeometryInfo<dim>::vertices_per_cell; ++i)
       corners.push_back(box.vertex(i) + pose.displacement(box.vertex(i)));
@@ -41,8 +42,8 @@ public:
   }
 
 private:
-  const Shape<dim>     &shape;
-  const RigidPose<dim> &pose;
+  std::shared_ptr<const Shape<dim>> shape;
+  RigidPose<dim>                    pose;
 };
 
 /** The part of `box` inside `limits`, or the nearest place in them. */
@@ -86,15 +87,15 @@ place_rigid_body(Body<dim> &body, const typename RigidPose<dim>::Unknowns &q,
     return;
   LatticeFrame<dim> wide_frame = frame;
   wide_frame.box.extend(margin);
-  const RigidPose<dim>        pose(*body.rigid, q);
-  const PlacedShape<dim>      shape(*body.rigid->shape, pose);
-  std::optional<Lattice<dim>> lattice
-    = find_lattice(shape, wide_frame, margin, body.path + "/Shape");
-  body.box = clamped(shape.bounding_box(), wide_frame.box);
+  const RigidPose<dim> pose(*body.rigid, q);
+  const auto           shape = std::make_shared<const PlacedShape<dim>>(body.rigid->shape, pose);
+  auto                 lattice
+    = find_lattice<dim>(shape, wide_frame, margin, body.path + "/Shape", largest_cheap_lattice);
+  body.box = clamped(shape->bounding_box(), wide_frame.box);
   body.level_set
     = lattice.has_value()
         ? *std::move(lattice)
-        : lattice_of_absent<dim>(shape, wide_frame, body.box.get_boundary_points().first, margin);
+        : lattice_of_absent<dim>(*shape, wide_frame, body.box.get_boundary_points().first, margin);
   body.pose = pose;
 }
 

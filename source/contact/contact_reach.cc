@@ -2,6 +2,7 @@
 #include <scree/base/log.h>
 #include <scree/bodies/broad_phase.h>
 #include <scree/contact/contact_reach.h>
+#include <scree/level_set/node_search.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -56,9 +57,8 @@ require_distinct(const std::vector<Body<dim>> &bodies, const std::vector<Contact
   constexpr double    largest_part = 0.9;
   std::vector<double> depths(bodies.size(), -1.);
   const auto          depth = [&](const unsigned int body) {
-    const auto &values = bodies[body].level_set.values();
     if (depths[body] < 0.)
-      depths[body] = -*std::min_element(values.begin(), values.end());
+      depths[body] = -smallest_value(bodies[body].level_set);
     return depths[body];
   };
   for (const ContactPair &pair : pairs)
@@ -68,13 +68,14 @@ require_distinct(const std::vector<Body<dim>> &bodies, const std::vector<Contact
       if (of_b.get_neighbor_type(bodies[pair.a].box) == dealii::NeighborType::not_neighbors)
         continue;
       double overlap = 0.;
-      for (std::size_t i = 0; i < a.values().size(); ++i)
-        if (-a.values()[i] > overlap)
-          {
-            const dealii::Point<dim> x = a.node(a.index(i));
-            if (of_b.point_inside(x))
-              overlap = std::max(overlap, std::min(-a.values()[i], -b.value(x, 1)));
-          }
+      search_nodes<dim>({a.lower(), a.n_nodes()},
+                        [&](const auto &, const auto &centre, const double radius) {
+                          const dealii::Point<dim> x = a.node(centre);
+                          const double both = std::min(-a.passing_value(centre), -b.value(x, 1));
+                          if (both > overlap && of_b.point_inside(x))
+                            overlap = both;
+                          return both + slope_bound * a.spacing() * radius > overlap;
+                        });
       if (overlap < largest_part * std::min(depth(pair.a), depth(pair.b)))
         continue;
       throw UserError(bodies[pair.b].path + "/Shape",

@@ -1,10 +1,12 @@
 #include <scree/base/exceptions.h>
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/level_set/fast_marching.h>
+#include <scree/level_set/node_search.h>
 #include <scree/level_set/reboxing.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 namespace scree
@@ -13,59 +15,64 @@ using namespace dealii;
 
 namespace
 {
-// More nodes than these (128 MB) are stored in tiles, where the shape is a distance.
-constexpr double largest_dense_lattice = 1 << 24;
-
-// The values of the shape, dense or in tiles.
 template <int dim>
-Lattice<dim>
-sampled(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const NodeBox<dim> &box,
-        const double margin)
-{
-  double n_nodes = 1;
-  for (unsigned int d = 0; d < dim; ++d)
-    n_nodes *= box.n_nodes[d];
-  if (shape.is_distance() && n_nodes > largest_dense_lattice)
-    return Lattice<dim>(
-      frame, box.lower, box.n_nodes, [&](const Point<dim> &x) { return shape.signed_distance(x); },
-      std::max(margin, Tiles<dim>::edge * frame.spacing));
-  Lattice<dim> lattice(frame, box.lower, box.n_nodes);
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    lattice.values()[i] = shape.signed_distance(lattice.node(lattice.index(i)));
-  return lattice;
-}
+using PointFunction = std::function<double(const Point<dim> &)>;
 
+// Throws UserError where a function is no finite number.
 template <int dim>
-void
-check_finite(const Lattice<dim> &lattice, const std::string &where)
+PointFunction<dim>
+checked(const PointFunction<dim> &phi, const std::string &where)
 {
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    if (!std::isfinite(lattice.values()[i]))
+  return [phi, where](const Point<dim> &x) {
+    const double value = phi(x);
+    if (!std::isfinite(value))
       {
         std::ostringstream point;
-        point << lattice.node(lattice.index(i));
+        point << x;
         throw UserError(where, "the level set is no finite number at the point " + point.str(),
                         "check divisions, roots and logarithms of the expression");
       }
+    return value;
+  };
 }
 
 // A body of one spacing between two planes of nodes has no negative node: its zeros become those.
 template <int dim>
-void
-fill_thin_body(const Shape<dim> &shape, Lattice<dim> &lattice)
+PointFunction<dim>
+filled(const PointFunction<dim> &phi, const double spacing)
 {
-  if (lattice.is_tiled())
-    return;
-  const double tiny = 1e-9 * lattice.spacing();
-  for (std::size_t i = 0; i < lattice.values().size(); ++i)
-    for (unsigned int side = 0; side < 2 * dim && std::abs(lattice.values()[i]) < 0.5 * tiny;
-         ++side)
+  return [phi, spacing](const Point<dim> &x) {
+    const double tiny = 1e-9 * spacing, value = phi(x);
+    for (unsigned int side = 0; side < 2 * dim && std::abs(value) < 0.5 * tiny; ++side)
       {
-        Point<dim> middle = lattice.node(lattice.index(i));
-        middle[side / 2] += (side % 2 == 0 ? -0.5 : 0.5) * lattice.spacing();
-        if (shape.signed_distance(middle) < 0)
-          lattice.values()[i] = -tiny;
+        Point<dim> middle = x;
+        middle[side / 2] += (side % 2 == 0 ? -0.5 : 0.5) * spacing;
+        if (phi(middle) < 0)
+          return -tiny;
       }
+    return value;
+  };
+}
+
+template <int dim>
+double
+n_nodes(const NodeBox<dim> &box)
+{
+  double result = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    result *= box.n_nodes[d];
+  return result;
+}
+
+template <int dim>
+Lattice<dim>
+dense_lattice(const PointFunction<dim> &phi, const LatticeFrame<dim> &frame,
+              const NodeBox<dim> &box)
+{
+  Lattice<dim> lattice(frame, box.lower, box.n_nodes);
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    lattice.values()[i] = phi(lattice.node(lattice.index(i)));
+  return lattice;
 }
 
 // A level set that is no distance may have values whose squares are no numbers.
@@ -80,80 +87,106 @@ scale_to_one(Lattice<dim> &lattice)
     value /= largest;
 }
 
-// The part of a box that the body needs.
 template <int dim>
 NodeBox<dim>
-trimmed(const Lattice<dim> &lattice, const double margin)
+common_part(const NodeBox<dim> &a, const NodeBox<dim> &b)
 {
-  NodeBox<dim> result = node_box_of_body(lattice, margin);
+  NodeBox<dim> result;
   for (unsigned int d = 0; d < dim; ++d)
     {
-      const int first   = std::max(result.lower[d], lattice.lower()[d]),
-                end     = std::min(result.lower[d] + result.n_nodes[d],
-                                   lattice.lower()[d] + lattice.n_nodes()[d]);
-      result.lower[d]   = first;
-      result.n_nodes[d] = end - first;
+      result.lower[d] = std::max(a.lower[d], b.lower[d]);
+      result.n_nodes[d]
+        = std::min(a.lower[d] + a.n_nodes[d], b.lower[d] + b.n_nodes[d]) - result.lower[d];
     }
   return result;
 }
-} // namespace
 
+// The lattice of a distance in a box, found without a look at all nodes.
 template <int dim>
 std::optional<Lattice<dim>>
-find_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
-             const std::string &where)
+lattice_of_distance(PointFunction<dim> phi, const LatticeFrame<dim> &frame, const NodeBox<dim> &box,
+                    const double margin, const std::string &where, const double most_nodes)
 {
-  const double           width = std::max(margin, 6 * frame.spacing);
-  const BoundingBox<dim> box   = shape.bounding_box();
-  Point<dim>             lower, upper;
-  for (unsigned int d = 0; d < dim; ++d)
+  std::optional<NodeBox<dim>> negative = box_of_negative_nodes(frame, box, phi);
+  if (!negative)
     {
-      lower[d] = std::max(box.lower_bound(d), frame.box.lower_bound(d));
-      upper[d] = std::min(box.upper_bound(d), frame.box.upper_bound(d));
-      if (!(lower[d] < upper[d]))
-        return {};
-      lower[d] -= width;
-      upper[d] += width;
+      phi      = filled<dim>(phi, frame.spacing);
+      negative = box_of_negative_nodes(frame, box, phi);
     }
+  if (!negative)
+    return {};
+  const NodeBox<dim> needed      = common_part(box, node_box_around(frame, *negative, margin));
+  const auto         checked_phi = checked<dim>(phi, where);
+  if (n_nodes(needed) > most_nodes)
+    return Lattice<dim>(frame, needed.lower, needed.n_nodes, checked_phi);
+  return dense_lattice<dim>(checked_phi, frame, needed);
+}
 
-  Lattice<dim> lattice  = sampled(shape, frame, node_box(frame, lower, upper), width);
+// The lattice of another level set in a box, by fast marching if there is a contour.
+template <int dim>
+std::optional<Lattice<dim>>
+lattice_of_level_set(const PointFunction<dim> &phi, const LatticeFrame<dim> &frame,
+                     const NodeBox<dim> &box, const double margin, const std::string &where)
+{
+  Lattice<dim> lattice  = dense_lattice(phi, frame, box);
   const auto   is_empty = [&]() {
     return std::none_of(lattice.values().begin(), lattice.values().end(),
                           [](const double value) { return value < 0; });
   };
   if (is_empty())
-    fill_thin_body(shape, lattice);
+    lattice = dense_lattice(filled<dim>(phi, frame.spacing), frame, box);
   if (is_empty())
     return {};
-  const NodeBox<dim> needed = trimmed(lattice, width);
+  const NodeBox<dim> needed = common_part(box, node_box_of_body(lattice, margin));
   if (needed.n_nodes != lattice.n_nodes())
-    lattice = lattice.is_tiled() ? sampled(shape, frame, needed, width) : reboxed(lattice, needed);
-  check_finite(lattice, where);
-  if (!shape.is_distance() && has_contour(lattice))
+    lattice = reboxed(lattice, needed);
+  for (std::size_t i = 0; i < lattice.values().size(); ++i)
+    if (!std::isfinite(lattice.values()[i]))
+      checked<dim>(phi, where)(lattice.node(lattice.index(i)));
+  if (has_contour(lattice))
     {
       scale_to_one(lattice);
       compute_distances(lattice);
     }
   return lattice;
 }
+} // namespace
+
+template <int dim>
+std::optional<Lattice<dim>>
+find_lattice(const std::shared_ptr<const Shape<dim>> &shape, const LatticeFrame<dim> &frame,
+             const double margin, const std::string &where, const double most_nodes)
+{
+  const double           width  = std::max(margin, 6 * frame.spacing);
+  const BoundingBox<dim> bounds = shape->bounding_box();
+  Point<dim>             lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = std::max(bounds.lower_bound(d), frame.box.lower_bound(d));
+      upper[d] = std::min(bounds.upper_bound(d), frame.box.upper_bound(d));
+      if (!(lower[d] < upper[d]))
+        return {};
+      lower[d] -= width;
+      upper[d] += width;
+    }
+  const NodeBox<dim> box = node_box(frame, lower, upper);
+  const auto         phi = [shape](const Point<dim> &x) { return shape->signed_distance(x); };
+  return shape->is_distance() ? lattice_of_distance<dim>(phi, frame, box, width, where, most_nodes)
+                              : lattice_of_level_set<dim>(phi, frame, box, width, where);
+}
 
 template <int dim>
 double
 inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice)
 {
-  constexpr unsigned int   n_starts = 30;
-  const double             h        = lattice.spacing();
-  const auto              &values   = lattice.values();
-  const double             lowest   = *std::min_element(values.begin(), values.end());
-  std::vector<std::size_t> deep;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] < lowest + 0.25 * h)
-      deep.push_back(i);
-  double     radius = 0;
-  const auto stride = std::max<std::size_t>(1, deep.size() / n_starts);
+  constexpr unsigned int n_starts = 30;
+  const double           h        = lattice.spacing();
+  const auto             deep     = nodes_below(lattice, smallest_value(lattice) + 0.25 * h);
+  double                 radius   = 0;
+  const auto             stride   = std::max<std::size_t>(1, deep.size() / n_starts);
   for (std::size_t i = 0; i < deep.size(); i += stride)
     {
-      Point<dim> x     = lattice.node(lattice.index(deep[i]));
+      Point<dim> x     = lattice.node(deep[i]);
       double     depth = -shape.signed_distance(x);
       for (double step = 0.5 * h; step > 1e-9 * h; step *= 0.5)
         for (unsigned int side = 0; side < 2 * dim; ++side)
@@ -183,26 +216,28 @@ inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice)
 
 template <int dim>
 Lattice<dim>
-make_lattice(const Shape<dim> &shape, const LatticeFrame<dim> &frame, const double margin,
-             const std::string &where)
+make_lattice(const std::shared_ptr<const Shape<dim>> &shape, const LatticeFrame<dim> &frame,
+             const double margin, const std::string &where, const double most_nodes)
 {
-  const BoundingBox<dim> box = shape.bounding_box();
+  const BoundingBox<dim> box = shape->bounding_box();
   for (unsigned int d = 0; d < dim; ++d)
     require(box.lower_bound(d) < frame.box.upper_bound(d)
               && frame.box.lower_bound(d) < box.upper_bound(d),
             where, "the shape lies outside the background grid", "move it, or enlarge the grid");
-  std::optional<Lattice<dim>> lattice = find_lattice(shape, frame, margin, where);
+  std::optional<Lattice<dim>> lattice = find_lattice(shape, frame, margin, where, most_nodes);
   require(lattice.has_value(), where, "the shape contains no node of the background grid",
           "it is empty, outside the grid, or needs smaller cells");
   return *std::move(lattice);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                     \
-  template double       inscribed_radius(const Shape<dim> &, const Lattice<dim> &);                \
-  template Lattice<dim> make_lattice(const Shape<dim> &, const LatticeFrame<dim> &, double,        \
-                                     const std::string &);                                         \
-  template std::optional<Lattice<dim>> find_lattice(const Shape<dim> &, const LatticeFrame<dim> &, \
-                                                    double, const std::string &);
+#define SCREE_INSTANTIATE(dim)                                                                              \
+  template double                      inscribed_radius(const Shape<dim> &, const Lattice<dim> &);          \
+  template Lattice<dim>                make_lattice(const std::shared_ptr<const Shape<dim>> &,              \
+                                                    const LatticeFrame<dim> &, double, const std::string &, \
+                                                    double);                                                \
+  template std::optional<Lattice<dim>> find_lattice(const std::shared_ptr<const Shape<dim>> &,              \
+                                                    const LatticeFrame<dim> &, double,                      \
+                                                    const std::string &, double);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

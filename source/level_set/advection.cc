@@ -300,47 +300,17 @@ image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const Nodal
   return {1, n_unconverged, nodes.n_nodes};
 }
 
-template <int dim>
-AdvectionCount
-advect_tiles(Lattice<dim> &lattice, const std::function<Tensor<1, dim>(const Point<dim> &)> &du,
-             const double band)
-{
-  Assert(lattice.is_tiled(), ExcMessage("The lattice is not stored in tiles."));
-  AdvectionCount count{1, 0, 0};
-  const double   tolerance = 1e-8 * lattice.spacing();
-  const auto     moved     = [&](const Point<dim> &x) {
-    Tensor<1, dim> w = du(x);
-    for (unsigned int iteration = 0; iteration < 50; ++iteration)
-      {
-        const Tensor<1, dim> next   = du(x - w);
-        const double         change = (next - w).norm();
-        AssertThrow(std::isfinite(change), ExcMessage("A level-set velocity is not finite."));
-        w = next;
-        if (change < tolerance)
-          return lattice.value(x - w, 3);
-      }
-    ++count.n_unconverged;
-    return lattice.value(x - w, 3);
-  };
-  Lattice<dim> result(lattice.frame(), lattice.lower(), lattice.n_nodes(), moved, band);
-  count.n_nodes = result.values().size();
-  lattice       = std::move(result);
-  return count;
-}
-
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template AdvectionCount advect<dim>(Lattice<dim> &,                                            \
-                                      const std::function<void(double, NodalVectors<dim> &)> &,  \
-                                      double, const AdvectionScheme &);                          \
-  template AdvectionCount advect<dim>(Lattice<dim> &, const NodalVectors<dim> &, double,         \
-                                      const AdvectionScheme &);                                  \
-  template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,       \
-                                                IncrementMotion, const AdvectionScheme &);       \
-  template AdvectionCount image_of_initial<dim>(Lattice<dim> &, const Lattice<dim> &,            \
-                                                const NodalVectors<dim> &,                       \
-                                                const NodalVectors<dim> &, NodalVectors<dim> *); \
-  template AdvectionCount advect_tiles<dim>(                                                     \
-    Lattice<dim> &, const std::function<Tensor<1, dim>(const Point<dim> &)> &, double);
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template AdvectionCount advect<dim>(Lattice<dim> &,                                           \
+                                      const std::function<void(double, NodalVectors<dim> &)> &, \
+                                      double, const AdvectionScheme &);                         \
+  template AdvectionCount advect<dim>(Lattice<dim> &, const NodalVectors<dim> &, double,        \
+                                      const AdvectionScheme &);                                 \
+  template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,      \
+                                                IncrementMotion, const AdvectionScheme &);      \
+  template AdvectionCount image_of_initial<dim>(Lattice<dim> &, const Lattice<dim> &,           \
+                                                const NodalVectors<dim> &,                      \
+                                                const NodalVectors<dim> &, NodalVectors<dim> *);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -110,13 +110,15 @@ Cell<dim, n>::take_from_tiles(const Lattice<dim> &lattice, const std::array<int,
       return;
     }
   values                    = gathered.data();
-  std::array<int, dim> node = first;
+  std::array<int, dim> node = lattice.lower();
+  for (unsigned int d = 0; d < dim; ++d)
+    node[d] += first[d];
+  const std::array<int, dim> start = node;
   for (double &value : gathered)
     {
-      const std::size_t at = tiles.position(node);
-      value = at != Storage::absent ? lattice.values()[at] : tiles.coarse_value(node);
-      for (unsigned int d = 0; d < dim && ++node[d] == first[d] + n && d + 1 < dim; ++d)
-        node[d] = first[d];
+      value = lattice(node);
+      for (unsigned int d = 0; d < dim && ++node[d] == start[d] + n && d + 1 < dim; ++d)
+        node[d] = start[d];
     }
 }
 
@@ -242,74 +244,58 @@ Lattice<dim>::Lattice(const LatticeFrame<dim> &frame, const Index &lower, const 
   node_box = BoundingBox<dim>(std::make_pair(node(lower), node(last)));
 }
 
-namespace
-{
-// Calls f(index) for all index < n, x fastest.
-template <int dim, typename F>
-void
-for_each_index(const std::array<int, dim> &n, const F &f)
-{
-  std::array<int, dim> index{};
-  while (index[dim - 1] < n[dim - 1])
-    {
-      f(index);
-      for (unsigned int d = 0; ++index[d] == n[d] && d + 1 < dim; ++d)
-        index[d] = 0;
-    }
-}
-} // namespace
-
 template <int dim>
 Lattice<dim>::Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes,
-                      const std::function<double(const Point<dim> &)> &distance, const double band)
+                      const std::function<double(const Point<dim> &)> &function)
     : lattice_frame(frame)
     , lower_node(lower)
     , node_count(n_nodes)
     , node_tiles(n_nodes)
+    , function(function)
 {
-  constexpr int edge = Tiles<dim>::edge;
-  Index         last;
+  Index last;
   for (unsigned int d = 0; d < dim; ++d)
     {
       Assert(n_nodes[d] >= 4, ExcMessage("A lattice needs 4 nodes per direction."));
       last[d] = lower[d] + n_nodes[d] - 1;
     }
-  node_box         = BoundingBox<dim>(std::make_pair(node(lower), node(last)));
-  const auto value = [&](const Index &first, const Index &offset, const int step) {
-    Index index;
-    for (unsigned int d = 0; d < dim; ++d)
-      index[d] = lower[d] + first[d] * edge + offset[d] * step;
-    return distance(node(index));
-  };
-  auto coarse = node_tiles.coarse().begin();
-  for_each_index<dim>(node_tiles.n_coarse(),
-                      [&](const Index &at) { *coarse++ = value(at, Index{}, 0); });
+  node_box = BoundingBox<dim>(std::make_pair(node(lower), node(last)));
+}
 
-  // every node of a tile is within half a diagonal of a corner
-  const double near_corner = band + 0.5 * std::sqrt(double(dim)) * edge * frame.spacing;
-  Index        corners, nodes_of_tile;
-  corners.fill(2);
-  nodes_of_tile.fill(edge);
-  std::vector<double> tile_values(Tiles<dim>::n_nodes);
-  for_each_index<dim>(node_tiles.n_tiles(), [&](const Index &tile) {
-    bool near = false;
-    for_each_index<dim>(corners, [&](const Index &corner) {
-      Index at;
+template <int dim>
+std::size_t
+Lattice<dim>::store(const Index &index) const
+{
+  Index at = index;
+  for (unsigned int d = 0; d < dim; ++d)
+    at[d] -= lower_node[d];
+  const std::size_t first = node_tiles.store(at);
+  for (std::size_t i = first; i < first + Tiles<dim>::n_nodes; ++i)
+    {
+      Index other = node_tiles.node(i);
       for (unsigned int d = 0; d < dim; ++d)
-        at[d] = tile[d] + corner[d];
-      near |= std::abs(node_tiles.coarse_at(at)) <= near_corner;
-    });
-    if (!near)
-      return;
-    auto to = tile_values.begin();
-    for_each_index<dim>(nodes_of_tile,
-                        [&](const Index &offset) { *to++ = value(tile, offset, 1); });
-    if (std::none_of(tile_values.begin(), tile_values.end(),
-                     [&](const double v) { return std::abs(v) <= band; }))
-      return;
-    node_tiles.store(tile);
-    node_values.insert(node_values.end(), tile_values.begin(), tile_values.end());
-  });
+        other[d] += lower_node[d];
+      node_values.push_back(function(node(other)));
+    }
+  return node_tiles.position(at);
+}
+
+template <int dim>
+double
+Lattice<dim>::asked_value(const Index &index) const
+{
+  Index at = index;
+  for (unsigned int d = 0; d < dim; ++d)
+    at[d] -= lower_node[d];
+  return node_tiles.ask(at) ? node_values[store(index)] : function(node(index));
+}
+
+template <int dim>
+double
+Lattice<dim>::passing_value(const Index &index) const
+{
+  const std::size_t position = offset(index);
+  return position == Tiles<dim>::absent ? function(node(index)) : node_values[position];
 }
 
 template <int dim>

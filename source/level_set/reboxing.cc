@@ -25,6 +25,19 @@ node_box(const LatticeFrame<dim> &frame, const Point<dim> &lower, const Point<di
   return result;
 }
 
+template <int dim>
+NodeBox<dim>
+node_box_around(const LatticeFrame<dim> &frame, const NodeBox<dim> &nodes, const double margin)
+{
+  Point<dim> lower = frame.origin, upper = frame.origin;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] += frame.spacing * (nodes.lower[d] - 1) - margin;
+      upper[d] += frame.spacing * (nodes.lower[d] + nodes.n_nodes[d]) + margin;
+    }
+  return node_box(frame, lower, upper);
+}
+
 namespace
 {
 // A box that clips nothing.
@@ -127,6 +140,7 @@ follow_body(Lattice<dim> &lattice, const double margin, const BoundingBox<dim> &
 #define SCREE_INSTANTIATE(dim)                                                                    \
   template NodeBox<dim> node_box(const LatticeFrame<dim> &, const Point<dim> &,                   \
                                  const Point<dim> &);                                             \
+  template NodeBox<dim> node_box_around(const LatticeFrame<dim> &, const NodeBox<dim> &, double); \
   template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double);                           \
   template NodeBox<dim> node_box_of_body(const Lattice<dim> &, double, const BoundingBox<dim> &); \
   template Lattice<dim> reboxed(const Lattice<dim> &, const NodeBox<dim> &);                      \

@@ -5,57 +5,23 @@ namespace scree
 template <int dim>
 Tiles<dim>::Tiles(const Node &n_box_nodes)
 {
-  std::size_t n = 1, n_coarse_nodes = 1;
+  std::size_t n = 1;
   for (int d = 0; d < dim; ++d)
     {
       tile_count[d] = (n_box_nodes[d] + edge - 1) / edge;
       n *= tile_count[d];
-      n_coarse_nodes *= tile_count[d] + 1;
     }
-  stored.assign(n, -1);
-  coarse_values.assign(n_coarse_nodes, std::numeric_limits<double>::quiet_NaN());
+  state.assign(n, -1);
 }
 
 template <int dim>
-const typename Tiles<dim>::Node &
-Tiles<dim>::n_tiles() const
+std::size_t
+Tiles<dim>::tile(const Node &node) const
 {
-  return tile_count;
-}
-
-template <int dim>
-typename Tiles<dim>::Node
-Tiles<dim>::n_coarse() const
-{
-  Node result;
-  for (int d = 0; d < dim; ++d)
-    result[d] = tile_count[d] + 1;
-  return result;
-}
-
-template <int dim>
-std::vector<double> &
-Tiles<dim>::coarse()
-{
-  return coarse_values;
-}
-
-template <int dim>
-const std::vector<double> &
-Tiles<dim>::coarse() const
-{
-  return coarse_values;
-}
-
-template <int dim>
-void
-Tiles<dim>::store(const Node &tile)
-{
-  std::size_t number = 0;
+  std::size_t result = 0;
   for (int d = dim - 1; d >= 0; --d)
-    number = number * tile_count[d] + tile[d];
-  stored[number] = static_cast<int>(tile_of.size());
-  tile_of.push_back(static_cast<unsigned>(number));
+    result = result * tile_count[d] + node[d] / edge;
+  return result;
 }
 
 template <int dim>
@@ -74,24 +40,23 @@ Tiles<dim>::node(const std::size_t position) const
 }
 
 template <int dim>
-double
-Tiles<dim>::coarse_value(const Node &node) const
+bool
+Tiles<dim>::ask(const Node &node)
 {
-  double sum = 0;
-  for (int corner = 0; corner < (1 << dim); ++corner)
-    {
-      double weight = 1;
-      Node   at;
-      for (int d = 0; d < dim; ++d)
-        {
-          const int    upper = (corner >> d) & 1;
-          const double t     = node[d] % edge / double(edge);
-          weight *= upper ? t : 1 - t;
-          at[d] = node[d] / edge + upper;
-        }
-      sum += weight * coarse_at(at);
-    }
-  return sum;
+  constexpr int enough  = n_nodes / 8;
+  int          &n_asked = state[tile(node)];
+  --n_asked;
+  return n_asked < -enough;
+}
+
+template <int dim>
+std::size_t
+Tiles<dim>::store(const Node &node)
+{
+  const std::size_t number = tile(node);
+  state[number]            = static_cast<int>(tile_of.size());
+  tile_of.push_back(static_cast<unsigned>(number));
+  return state[number] * n_nodes;
 }
 
 template class Tiles<2>;

@@ -27,9 +27,14 @@ deformed_body(const std::shared_ptr<const Shape<dim>> &shape, const Tensor<2, di
       upper[d] = 2.;
     }
   const BoundingBox<dim> box({lower, upper});
-  Body<dim>              body{
-    "body",  "Bodies/body", make_lattice(*shape, {lower, spacing, box}, 6. * spacing, "Shape"), box,
-    nullptr, nullptr,       Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Body force"),  {}};
+  Body<dim>              body{"body",
+                 "Bodies/body",
+                 make_lattice<dim>(shape, {lower, spacing, box}, 6. * spacing, "Shape"),
+                 box,
+                 nullptr,
+                 nullptr,
+                 Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Body force"),
+                 {}};
   body.shape = shape;
   NodalVectors<dim> u;
   for (std::size_t i = 0; i < body.level_set.values().size(); ++i)

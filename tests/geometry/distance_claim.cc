@@ -63,9 +63,8 @@ TEST(DistanceClaim, TheScaleOfOtherFormulasDoesNotMatter)
   frame.origin       = Point<2>(-1, -1);
   frame.box          = box;
   const auto lattice = [&](const std::string &factor) {
-    return make_lattice(
-      ExpressionShape<2>(Expression<2>(factor + "*(x^2+(y-0.1)^2-0.49)", 1, "Expression"), false),
-      frame, 0.1);
+    const Expression<2> expression(factor + "*(x^2+(y-0.1)^2-0.49)", 1, "Expression");
+    return make_lattice<2>(std::make_shared<ExpressionShape<2>>(expression, false), frame, 0.1);
   };
   const auto expected = lattice("1");
   for (const std::string factor : {"1e155", "1e-155", "1e300", "1e-290", "3"})

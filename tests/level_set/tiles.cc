@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <scree/level_set/advection.h>
 #include <scree/level_set/closest_point.h>
 #include <scree/level_set/lattice.h>
 
@@ -32,7 +31,7 @@ struct Pair
 // The same ball in [-1, 1]^dim, dense and in tiles; the box does not consist of complete tiles.
 template <int dim>
 Pair<dim>
-ball_lattices(const int n, const double band)
+ball_lattices(const int n)
 {
   LatticeFrame<dim> frame;
   frame.origin  = Point<dim>::unit_vector(0) * 0.001;
@@ -40,8 +39,7 @@ ball_lattices(const int n, const double band)
   std::array<int, dim> lower, count;
   lower.fill(-n);
   count.fill(2 * n + 1);
-  Pair<dim> result{Lattice<dim>(frame, lower, count),
-                   Lattice<dim>(frame, lower, count, ball<dim>, band)};
+  Pair<dim> result{Lattice<dim>(frame, lower, count), Lattice<dim>(frame, lower, count, ball<dim>)};
   for (std::size_t i = 0; i < result.dense.values().size(); ++i)
     result.dense.values()[i] = ball<dim>(result.dense.node(result.dense.index(i)));
   return result;
@@ -62,34 +60,21 @@ template <int dim>
 void
 check_evaluation(const int n, const unsigned int degree)
 {
-  const double h            = 1. / n;
-  const auto [dense, tiled] = ball_lattices<dim>(n, 8 * h);
+  const auto [dense, tiled] = ball_lattices<dim>(n);
   EXPECT_TRUE(tiled.is_tiled());
   EXPECT_FALSE(dense.is_tiled());
-  EXPECT_LT(tiled.values().size(), 0.6 * dense.values().size());
-  double       difference = 0;
-  unsigned int n_compared = 0;
   for (unsigned int i = 0; i < 20000; ++i)
     {
       const Point<dim> x = sample<dim>(i);
       const auto       a = dense.expansion(x, degree), b = tiled.expansion(x, degree);
-      EXPECT_EQ(b.value < 0, a.value < 0);
-      EXPECT_NEAR(b.value, tiled.value(x, degree), 1e-14);
-      EXPECT_NEAR(b.value, tiled.value_and_gradient(x, degree).first, 0.);
-      if (std::abs(a.value) > 5 * h)
-        continue;
-      ++n_compared;
-      difference = std::max({difference, std::abs(b.value - a.value) / h,
-                             (b.gradient - a.gradient).norm(), h * (b.hessian - a.hessian).norm()});
+      EXPECT_EQ(b.value, a.value);
+      EXPECT_EQ(b.gradient, a.gradient);
+      EXPECT_EQ(b.hessian, a.hessian);
+      EXPECT_EQ(tiled.value(x, degree), dense.value(x, degree));
     }
-  std::cout << dim << "D, degree " << degree << ": " << tiled.values().size() << " of "
-            << dense.values().size() << " nodes, difference " << difference << " at " << n_compared
-            << " points\n";
-  EXPECT_GT(n_compared, 500u);
-  EXPECT_LT(difference, 1e-13);
 }
 
-TEST(Tiles, EqualTheDenseLatticeInTheBand)
+TEST(Tiles, EqualTheDenseLattice)
 {
   for (const unsigned int degree : {1, 2, 3})
     {
@@ -98,32 +83,40 @@ TEST(Tiles, EqualTheDenseLatticeInTheBand)
     }
 }
 
-TEST(Tiles, StoreTheBandAndTellItsNodes)
+TEST(Tiles, ComeWhereNodesAreAskedFor)
 {
-  const double h            = 1. / 50;
-  const auto [dense, tiled] = ball_lattices<3>(50, 8 * h);
+  const auto [dense, tiled] = ball_lattices<3>(50);
+  const Lattice<3>::Index node{{20, -3, 7}};
+  const std::size_t       few = Tiles<3>::n_nodes / 8;
+  for (std::size_t i = 0; i < few - 1; ++i)
+    {
+      EXPECT_EQ(tiled(node), dense(node));
+      EXPECT_EQ(tiled.offset(node), Tiles<3>::absent);
+    }
+  EXPECT_EQ(tiled(node), dense(node));
+  EXPECT_EQ(tiled.values().size(), std::size_t(Tiles<3>::n_nodes));
+  EXPECT_EQ(tiled.index(tiled.offset(node)), node);
+  for (std::size_t i = 0; i < dense.values().size(); ++i)
+    {
+      const auto index = dense.index(i);
+      EXPECT_EQ(tiled(index), dense.values()[i]);
+      EXPECT_EQ(tiled.nodal_value(dense.node(index)), dense.values()[i]);
+    }
   for (std::size_t i = 0; i < tiled.values().size(); ++i)
     {
       const auto index = tiled.index(i);
       EXPECT_EQ(tiled.values()[i], ball<3>(tiled.node(index)));
       EXPECT_TRUE(!tiled.contains(index) || tiled.offset(index) == i);
     }
-  for (std::size_t i = 0; i < dense.values().size(); ++i)
-    {
-      const auto   index = dense.index(i);
-      const double exact = dense.values()[i];
-      if (std::abs(exact) <= 8 * h)
-        EXPECT_EQ(tiled(index), exact);
-      else
-        EXPECT_NEAR(tiled(index), exact, 8 * h);
-      EXPECT_EQ(tiled.nodal_value(dense.node(index)), tiled(index));
-    }
+  Lattice<3> changed = ball_lattices<3>(50).tiled;
+  changed(node)      = 7.;
+  EXPECT_EQ(changed.nodal_value(changed.node(node)), 7.);
 }
 
 TEST(Tiles, AreSearchedForClosestPoints)
 {
   const double h            = 1. / 50;
-  const auto [dense, tiled] = ball_lattices<3>(50, 8 * h);
+  const auto [dense, tiled] = ball_lattices<3>(50);
   for (unsigned int i = 0; i < 500; ++i)
     {
       const Point<3> x = sample<3>(i);
@@ -135,77 +128,24 @@ TEST(Tiles, AreSearchedForClosestPoints)
     }
 }
 
-// A ball goes 18 spacings and turns, in 12 increments: the tiles follow it.
-TEST(ReleaseTiles, FollowAMovingBall)
-{
-  const double h     = 1. / 60;
-  auto         tiled = ball_lattices<3>(60, 8 * h).tiled;
-  const auto   ball_of_radius
-    = [](const Point<3> &x, const Point<3> &centre) { return x.distance(centre) - 0.4; };
-  Point<3> centre(-0.2, 0, 0.1);
-  tiled = Lattice<3>(
-    tiled.frame(), tiled.lower(), tiled.n_nodes(),
-    [&](const Point<3> &x) { return ball_of_radius(x, centre); }, 8 * h);
-  const double       angle = 0.1;
-  const Tensor<1, 3> shift({0.02, 0.015, -0.005});
-  const auto         move = [&](const Point<3> &x) {
-    return Tensor<1, 3>({std::cos(angle) * x[0] - std::sin(angle) * x[1] + shift[0] - x[0],
-                         std::sin(angle) * x[0] + std::cos(angle) * x[1] + shift[1] - x[1],
-                         shift[2]});
-  };
-  std::size_t n_nodes = 0;
-  for (unsigned int step = 0; step < 12; ++step)
-    {
-      const AdvectionCount count = advect_tiles<3>(tiled, move, 8 * h);
-      EXPECT_EQ(count.n_unconverged, 0u);
-      n_nodes = count.n_nodes;
-      centre += move(centre);
-    }
-  double       error  = 0;
-  unsigned int n_near = 0;
-  for (std::size_t i = 0; i < tiled.values().size(); ++i)
-    {
-      const Point<3> x     = tiled.node(tiled.index(i));
-      const double   exact = ball_of_radius(x, centre);
-      if (tiled.contains(tiled.index(i)) && std::abs(exact) < 2 * h)
-        {
-          ++n_near;
-          error = std::max(error, std::abs(tiled.values()[i] - exact));
-        }
-    }
-  // all nodes next to the contour are in tiles, and the rest knows its side
-  for (unsigned int i = 0; i < 5000; ++i)
-    {
-      const Point<3> x     = sample<3>(i);
-      const double   exact = ball_of_radius(x, centre);
-      EXPECT_TRUE(std::abs(exact) < h || (tiled.value(x, 1) < 0) == (exact < 0));
-    }
-  std::cout << n_nodes << " nodes, " << n_near << " near the contour, error/h " << error / h
-            << '\n';
-  EXPECT_NEAR(n_near, 4 * numbers::PI * 0.16 / (h * h) * 4, 3000);
-  EXPECT_LT(error, 0.02 * h);
-}
-
 // 800^3 nodes in well below a gigabyte.
 TEST(ReleaseTiles, HoldABigBall)
 {
   const int       n = 400;
   LatticeFrame<3> frame;
   frame.spacing = 1. / n;
-  const Lattice<3> tiled(
-    frame, {{-n, -n, -n}}, {{2 * n, 2 * n, 2 * n}},
-    [](const Point<3> &x) { return x.norm() - 0.9; }, 8. / n);
-  const double bytes = 8. * tiled.values().size() + 12. * tiled.tiles().coarse().size();
-  std::cout << "stored " << tiled.values().size() << " of " << std::pow(2. * n, 3) << " nodes, "
-            << bytes / 1e6 << " MB\n";
-  EXPECT_LT(bytes, 5e8);
-  for (unsigned int i = 0; i < 10000; ++i)
+  const Lattice<3> tiled(frame, {{-n, -n, -n}}, {{2 * n, 2 * n, 2 * n}},
+                         [](const Point<3> &x) { return x.norm() - 0.9; });
+  for (unsigned int i = 0; i < 100000; ++i)
     {
       const Point<3> x  = sample<3>(i);
       const Point<3> on = x * (0.9 / x.norm());
       EXPECT_NEAR(tiled.value(on, 3), 0, 1e-9);
-      EXPECT_NEAR(tiled.value(x * 0.9, 1), 0.9 * x.norm() - 0.9, 8. / n);
     }
+  const double bytes = 8. * tiled.values().size() + std::pow(2. * n, 3) / 128.;
+  std::cout << "stored " << tiled.values().size() << " of " << std::pow(2. * n, 3) << " nodes, "
+            << bytes / 1e6 << " MB\n";
+  EXPECT_LT(bytes, 5e8);
 }
 } // namespace
 } // namespace scree

@@ -88,7 +88,8 @@ std::pair<double, dealii::Tensor<1, dim>> value_and_gradient(const Body<dim>    
 
 /**
  * Builds the bodies: shape -> lattice, with `margin` [L] around the shape. Rigid bodies may lie
- * within the margin around the background box, deformable ones are clipped by it.
+ * within the margin around the background box, deformable ones are clipped by it. The lattices of
+ * deformable bodies are dense if `is_moving`.
  * @throws UserError if a body lies outside the background box, a rigid body has boundary conditions
  * or a body force, or a deformable one a motion
  */
@@ -96,5 +97,5 @@ template <int dim>
 std::vector<Body<dim>>
 make_bodies(const std::vector<BodyParameters<dim>>                            &parameters,
             const std::map<std::string, std::shared_ptr<const Material<dim>>> &materials,
-            const LatticeFrame<dim> &frame, const double margin);
+            const LatticeFrame<dim> &frame, const double margin, const bool is_moving = true);
 } // namespace scree

@@ -87,16 +87,4 @@ template <int dim>
 AdvectionCount image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial,
                                 const NodalVectors<dim> &du, const NodalVectors<dim> &displacement,
                                 NodalVectors<dim> *moved_by = nullptr);
-
-/**
- * The semi-Lagrangian update of a lattice in tiles: `phi_new(x) = phi(X)`, `X + du(X) = x`, at
- * every 8th node and in the tiles around the new contour, with `band` (length) as in the
- * constructor of Lattice. du (length) is asked for all over the box; the back-trace is a fixed
- * point, `w <- du(x - w)`, and converges where du is a contraction.
- */
-template <int dim>
-AdvectionCount
-advect_tiles(Lattice<dim>                                                            &lattice,
-             const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> &du,
-             double                                                                   band);
 } // namespace scree

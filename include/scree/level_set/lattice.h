@@ -37,8 +37,9 @@ struct LevelSetExpansion
 
 /**
  * A uniform Cartesian lattice of nodal values with Lagrange interpolation. It is dense, or it
- * stores tiles of 8^dim nodes in a band around the contour and elsewhere every 8th node, between
- * which it is multilinear: a big body in 3D. Evaluation is the same for both.
+ * knows a function, asks it for the nodes that are needed and keeps those of tiles of 8^dim nodes
+ * that are needed often: a big body, of which the grid resolves a part of the surface. Evaluation
+ * gives the same numbers for both. Tiles come while a constant lattice is read: not in threads.
  *
  * Degrees 1 and 2 interpolate in cells of k x k spacings whose corners are multiples of k in the
  * global numbering of the frame: the FE_Q(k) interpolant on the finest background cells if
@@ -61,14 +62,9 @@ public:
    */
   Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes);
 
-  /**
-   * The same box in tiles, with the values of `distance`, a signed distance or any function with
-   * slopes of at most 1. Tiles are stored where some node has |distance| <= band (length); from 7
-   * spacings on the sign of the interpolant is right everywhere. `distance` is evaluated at every
-   * 8th node and in the tiles that these show to be candidates.
-   */
+  /** The same box in tiles, none of which is there yet: `function` gives the values of nodes. */
   Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes,
-          const std::function<double(const dealii::Point<dim> &)> &distance, double band);
+          const std::function<double(const dealii::Point<dim> &)> &function);
 
   bool is_tiled() const;
 
@@ -97,13 +93,16 @@ public:
 
   Index index(std::size_t offset) const;
 
-  /** The value of a stored node. */
+  /** The value of a node, which is stored from now on. */
   double &operator()(const Index &index);
 
   /** The value of any node. */
   double operator()(const Index &index) const;
 
-  /** The stored values: all nodes, x fastest, or tile by tile. */
+  /** The same for a search that passes by: no tile comes of it. */
+  double passing_value(const Index &index) const;
+
+  /** The stored values: all nodes, x fastest, or the tiles so far. */
   std::vector<double> &values();
 
   const std::vector<double> &values() const;
@@ -123,12 +122,20 @@ public:
   LevelSetExpansion<dim> expansion(const dealii::Point<dim> &x, unsigned int degree) const;
 
 private:
-  LatticeFrame<dim>        lattice_frame;
-  Index                    lower_node;
-  Index                    node_count;
-  dealii::BoundingBox<dim> node_box;
-  std::vector<double>      node_values;
-  Tiles<dim>               node_tiles; // empty if dense
+  /** Stores the tile of an absent node. Returns the position of the node. */
+  std::size_t store(const Index &index) const;
+
+  /** The value of an absent node. */
+  double asked_value(const Index &index) const;
+
+  LatticeFrame<dim>           lattice_frame;
+  Index                       lower_node;
+  Index                       node_count;
+  dealii::BoundingBox<dim>    node_box;
+  mutable std::vector<double> node_values;
+  mutable Tiles<dim>          node_tiles; // empty if dense
+
+  std::function<double(const dealii::Point<dim> &)> function; // empty if dense
 };
 
 template <int dim>
@@ -171,8 +178,7 @@ inline double &
 Lattice<dim>::operator()(const Index &index)
 {
   const std::size_t position = offset(index);
-  Assert(position < node_values.size(), dealii::ExcMessage("The node is not stored."));
-  return node_values[position];
+  return node_values[position == Tiles<dim>::absent ? store(index) : position];
 }
 
 template <int dim>
@@ -180,11 +186,6 @@ inline double
 Lattice<dim>::operator()(const Index &index) const
 {
   const std::size_t position = offset(index);
-  if (position < node_values.size())
-    return node_values[position];
-  Index node = index;
-  for (unsigned int d = 0; d < dim; ++d)
-    node[d] -= lower_node[d];
-  return node_tiles.coarse_value(node);
+  return position == Tiles<dim>::absent ? asked_value(index) : node_values[position];
 }
 } // namespace scree

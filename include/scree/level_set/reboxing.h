@@ -16,6 +16,11 @@ template <int dim>
 NodeBox<dim> node_box(const LatticeFrame<dim> &frame, const dealii::Point<dim> &lower,
                       const dealii::Point<dim> &upper);
 
+/** Such a box around nodes, with `margin` (length) and a spacing around them. */
+template <int dim>
+NodeBox<dim> node_box_around(const LatticeFrame<dim> &frame, const NodeBox<dim> &nodes,
+                             double margin);
+
 /**
  * The box of the negative nodes of a lattice, of which there must be one, with `margin` (length)
  * and a spacing around it, for the contour is up to one spacing beyond the negative nodes.

@@ -8,9 +8,8 @@
 namespace scree
 {
 /**
- * Nodal values of a big box that are stored in tiles of 8^dim nodes near the contour only, beside
- * every 8th node of the whole box. Nodes count from the first one of the box. The last tiles may
- * reach beyond the box.
+ * Which nodes of a big box are stored: tiles of 8^dim nodes, in the order in which they came. Nodes
+ * count from the first one of the box. The last tiles may reach beyond the box.
  */
 template <int dim>
 class Tiles
@@ -25,25 +24,10 @@ public:
   /** No tiles, for a box of no nodes. */
   Tiles() = default;
 
-  /** No tile is stored yet; every 8th node of a box of `n_box_nodes` gets the value NaN. */
+  /** No tile is stored yet. */
   explicit Tiles(const Node &n_box_nodes);
 
   bool empty() const;
-
-  /** Number of tiles per direction, stored or not. */
-  const Node &n_tiles() const;
-
-  /** Number of coarse nodes, and the values there; x fastest. */
-  Node n_coarse() const;
-
-  std::vector<double> &coarse();
-
-  const std::vector<double> &coarse() const;
-
-  double coarse_at(const Node &coarse_node) const;
-
-  /** Appends a tile to those that are stored. */
-  void store(const Node &tile);
 
   /** The position of a node in the stored values, `absent` if its tile is not stored. */
   std::size_t position(const Node &node) const;
@@ -51,31 +35,29 @@ public:
   /** The node at a position in the stored values. */
   Node node(std::size_t position) const;
 
-  /** The value of a node whose tile is absent: multilinear in the coarse values. */
-  double coarse_value(const Node &node) const;
+  /**
+   * Counts that a node of an absent tile is asked for: whether an eighth of the nodes of the tile
+   * has been, so that the tile had better be stored.
+   */
+  bool ask(const Node &node);
+
+  /** Appends the tile of a node to those that are stored. Returns the position of its first node.
+   */
+  std::size_t store(const Node &node);
 
 private:
+  std::size_t tile(const Node &node) const;
+
   Node                  tile_count{};
-  std::vector<int>      stored;  // tile -> its number in the order of storage, or -1
+  std::vector<int>      state;   // tile -> its number in the order of storage, or -1 - n_asked
   std::vector<unsigned> tile_of; // and back
-  std::vector<double>   coarse_values;
 };
 
 template <int dim>
 inline bool
 Tiles<dim>::empty() const
 {
-  return stored.empty();
-}
-
-template <int dim>
-inline double
-Tiles<dim>::coarse_at(const Node &coarse_node) const
-{
-  std::size_t position = 0;
-  for (int d = dim - 1; d >= 0; --d)
-    position = position * (tile_count[d] + 1) + coarse_node[d];
-  return coarse_values[position];
+  return state.empty();
 }
 
 template <int dim>
@@ -88,7 +70,7 @@ Tiles<dim>::position(const Node &node) const
       tile   = tile * tile_count[d] + node[d] / edge;
       within = within * edge + node[d] % edge;
     }
-  const int number = stored[tile];
+  const int number = state[tile];
   return number < 0 ? absent : number * n_nodes + within;
 }
 } // namespace scree
