@@ -152,13 +152,16 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
       least->x[d] = inside;
     }
 
-  // Deformed surfaces have small hollows beside their contact.
+  // Deformed surfaces have small hollows beside their contact; wide contact reaches other points.
   const auto   tangents  = surface_tangents<dim>(first.normal);
   const double least_gap = gap(least->x);
   for (const auto &tangent : tangents)
     for (const double offset : {-2., -1.5, -1., -0.5, 0.5, 1., 1.5, 2.})
-      if (gap(least->x + offset * cell.size * tangent) < least_gap - 1e-6 * cell.size)
-        return;
+      {
+        const double beside = gap(least->x + offset * cell.size * tangent);
+        if (beside < least_gap - 1e-6 * cell.size || (std::abs(offset) == 0.5 && beside < 0.))
+          return;
+      }
 
   // The points beside it: on the same faces, seen in the tangent plane.
   constexpr double                   same = 0.9; // cosine

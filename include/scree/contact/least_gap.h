@@ -27,7 +27,7 @@ public:
 
   /**
    * Adds the point to those of a cell that are all open, if the bodies are nearest within it, two
-   * cells around, and curved by at least 0.02 of a cell's edge.
+   * cells around, open half a cell from there, and curved by at least 0.02 of a cell's edge.
    */
   void add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points) const;
 
