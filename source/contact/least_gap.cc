@@ -88,17 +88,17 @@ LeastGap<dim>::gap(const dealii::Point<dim> &x) const
 
 template <int dim>
 std::optional<typename LeastGap<dim>::Minimum>
-LeastGap<dim>::minimum(const dealii::Point<dim> &start, const Tensor &normal,
-                       const double size) const
+LeastGap<dim>::minimum(const dealii::Point<dim> &start, const double size) const
 {
-  constexpr unsigned int most_iterations = 8;
-  const auto             tangents        = surface_tangents<dim>(normal);
+  constexpr unsigned int most_iterations = 10;
   const double           step            = 0.25 * size; // smooths interpolants
   Minimum                result{on_surface(start), 0.};
   double                 length = 0.;
   for (unsigned int iteration = 0; iteration < most_iterations; ++iteration)
     {
-      const auto at = [&](const Tensor &offset) { return gap(result.x + step * offset); };
+      const Tensor normal   = distance(pair.a, result.x).second - distance(pair.b, result.x).second;
+      const auto   tangents = surface_tangents<dim>(normal / normal.norm());
+      const auto   at       = [&](const Tensor &offset) { return gap(result.x + step * offset); };
       dealii::Tensor<1, dim - 1>          f;
       dealii::SymmetricTensor<2, dim - 1> H;
       for (unsigned int k = 0; k < dim - 1; ++k)
@@ -122,7 +122,7 @@ LeastGap<dim>::minimum(const dealii::Point<dim> &start, const Tensor &normal,
       result.x = on_surface(result.x);
       if (result.x.distance(start) > 2. * size)
         return {};
-      if (length < 1e-6 * size)
+      if (length < 1e-12 * size)
         break;
     }
   if (length > accuracy * size)
@@ -141,7 +141,7 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
                         [](const auto &p, const auto &q) { return p.initial_gap < q.initial_gap; });
   if (first.initial_gap < 0.)
     return; // points of the cell lie in the contact already
-  auto least = minimum(first.position, first.normal, cell.size);
+  auto least = minimum(first.position, cell.size);
   if (!least)
     return;
   for (unsigned int d = 0; d < dim; ++d)
@@ -201,6 +201,7 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
   point.position          = least->x;
   point.weight            = omega;
   point.initial_gap = point.start_gap = least_gap;
+  point.is_exact = distances.is_known(pair.a, least->x) && distances.is_known(pair.b, least->x);
   if (point.normal_of == NormalOf::both)
     point.normal = distance(pair.a, least->x).second - distance(pair.b, least->x).second;
   else if (point.normal_of == NormalOf::body_a)

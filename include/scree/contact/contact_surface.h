@@ -39,7 +39,7 @@ struct ContactPoint
   dealii::Tensor<1, dim> start_normal = {}; //!< of the surface at the start of a step
   double                 start_gap    = 0.; //!< phi_a + phi_b at the start of a step
   bool                   is_glued     = false; //!< of a tied pair, closed when the run began
-  bool                   is_exact     = false; //!< near a kink, from exact distances
+  bool                   is_exact  = false; //!< near a kink or of least gap, from exact distances
   bool                   is_beyond = false; //!< an edge: the surfaces there do not face each other
   NormalOf               normal_of = NormalOf::both; //!< known from exact distances
   /** x_a and x_b, where the displacements of a and b are taken. */

@@ -50,8 +50,7 @@ private:
   };
   /** The least gap near x by Newton's method with differences on the surface, over steps of up to a
    * cell. */
-  std::optional<Minimum> minimum(const dealii::Point<dim> &x, const Tensor &normal,
-                                 const double size) const;
+  std::optional<Minimum> minimum(const dealii::Point<dim> &x, const double size) const;
 
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;
