@@ -23,10 +23,14 @@ values_at(const std::vector<NodeStencil>              &stencils,
   if (!vector)
     return result;
   const dealii::IndexSet owned = vector->locally_owned_elements();
-  dealii::IndexSet       relevant(owned);
+  std::vector<DofIndex>  unknowns;
   for (const NodeStencil &stencil : stencils)
     for (const auto &[node, weight] : stencil)
-      relevant.add_range(node, node + dim);
+      for (unsigned int d = 0; d < dim; ++d)
+        unknowns.push_back(node + d);
+  std::sort(unknowns.begin(), unknowns.end());
+  dealii::IndexSet relevant(owned);
+  relevant.add_indices(unknowns.begin(), std::unique(unknowns.begin(), unknowns.end()));
   relevant.compress();
   result.reinit(owned, relevant, vector->get_mpi_communicator());
   result = *vector;
