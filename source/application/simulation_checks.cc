@@ -84,7 +84,7 @@ Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u)
   const auto balances = equilibrium->balance(u);
   // Of bodies without any forces: what moving the softest of them leaves by rounding.
   const auto [lower, upper] = grid->box().get_boundary_points();
-  double motion             = is_moving() ? 1e-5 * lower.distance(upper) : 0.;
+  double motion             = is_moving() ? 1e-3 * lower.distance(upper) : 0.;
   double softest            = std::numeric_limits<double>::max();
   for (const BodyBalance<dim> &balance : balances)
     {
