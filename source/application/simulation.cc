@@ -50,11 +50,13 @@ Simulation<dim>::set_up()
 
   if (is_moving())
     require_movable(bodies);
-  pairs = find_pairs();
+  pairs_change = is_moving() && has_many_pairs();
+  pairs        = find_pairs();
   require_distinct(bodies, pairs);
   discretise();
   was_closed.assign(contact->points().size(), false);
-  results = std::make_unique<Results<dim>>(directory, bodies, parameters.output.probes);
+  results
+    = std::make_unique<Results<dim>>(directory, bodies, parameters.output.probes, pairs_change);
   results->set_discretization(*fields, *level_set_nodes);
   state.time         = 0.;
   state.displacement = zero_displacement(*fields);
@@ -84,6 +86,8 @@ Simulation<dim>::discretise()
     level_set_nodes.reset();
     if (is_moving() && has_started() && parameters.grid.refinement == GridRefinement::contact)
       grid = std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator);
+    if (pairs_change && has_started())
+      pairs = find_pairs();
     std::vector<std::pair<unsigned int, unsigned int>> indices;
     for (const ContactPair &pair : pairs)
       indices.emplace_back(pair.a, pair.b);
@@ -157,23 +161,45 @@ Simulation<dim>::lattice_margin() const
 }
 
 template <int dim>
+bool
+Simulation<dim>::may_touch(const unsigned int a, const unsigned int b) const
+{
+  const auto is_driven
+    = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
+  return parameters.contact.law_of(bodies[a].name, bodies[b].name).law != ContactLaw::none
+         && !(is_driven(bodies[a]) && is_driven(bodies[b]));
+}
+
+template <int dim>
+bool
+Simulation<dim>::has_many_pairs() const
+{
+  unsigned int n_pairs = 0;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (unsigned int a = 0; a < b && n_pairs <= Results<dim>::most_pairs_in_history; ++a)
+      n_pairs += may_touch(a, b);
+  return n_pairs > Results<dim>::most_pairs_in_history;
+}
+
+template <int dim>
 std::vector<ContactPair>
 Simulation<dim>::find_pairs() const
 {
-  // On a moving geometry any two bodies may meet in the course of the run.
-  const double reach = is_moving() ? grid->box().side_length(0) + grid->box().side_length(1)
-                                       + grid->box().side_length(dim - 1)
-                                   : 2. * parameters.contact.shift * grid->finest_size();
-  std::vector<ContactPair> pairs;
-  for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
+  double reach = 2. * parameters.contact.shift * grid->finest_size();
+  if (is_moving())
     {
-      const auto law = parameters.contact.law_of(bodies[a].name, bodies[b].name);
-      const auto is_driven
-        = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
-      if (law.law != ContactLaw::none && !(is_driven(bodies[a]) && is_driven(bodies[b])))
-        pairs.push_back({a, b, bodies[a].name + "-" + bodies[b].name, law});
+      // Few pairs stay for the whole run, in the course of which any two bodies may meet.
+      const dealii::BoundingBox<dim> box = grid->box();
+      const double everywhere = box.side_length(0) + box.side_length(1) + box.side_length(dim - 1);
+      reach = pairs_change ? std::min(everywhere, std::max(reach, grid->reach_of_refinement()))
+                           : everywhere;
     }
-  return pairs;
+  std::vector<ContactPair> result;
+  for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
+    if (may_touch(a, b))
+      result.push_back({a, b, bodies[a].name + "-" + bodies[b].name,
+                        parameters.contact.law_of(bodies[a].name, bodies[b].name)});
+  return result;
 }
 
 template <int dim>

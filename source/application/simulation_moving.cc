@@ -197,9 +197,11 @@ Simulation<dim>::move_geometry()
   record.volumes = bulk->volumes();
   record.points  = state.points.totals(bodies.size(), communicator);
   require_no_loss(record.points);
-  for (const auto &force :
-       transferred_forces(*contact, state.step_end.contact, state.contact, communicator))
-    record.force_jumps.push_back(force.tangential_after - force.tangential_before);
+  const auto forces
+    = transferred_forces(*contact, state.step_end.contact, state.contact, communicator);
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    record.force_jumps[{pairs[p].a, pairs[p].b}]
+      = forces[p].tangential_after - forces[p].tangential_before;
   results->gather_motion(record);
 }
 

@@ -74,9 +74,12 @@ Simulation<dim>::report_set_up()
     }
   const auto n_points  = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
   const auto summaries = summarise_contact(*contact, communicator);
+  const bool has_many  = pairs_change || pairs.size() > Results<dim>::most_pairs_in_history;
   for (unsigned int p = 0; p < contact->pairs().size(); ++p)
     {
       const auto &pair = contact->pairs()[p];
+      if (has_many && std::isnan(summaries[p].minimum_gap))
+        continue;
       log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
                + pair.law.name + "')"
                + (std::isnan(summaries[p].minimum_gap)
@@ -86,7 +89,7 @@ Simulation<dim>::report_set_up()
         log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
                  + short_number(summaries[p].max_penetration));
     }
-  if (contact->pairs().size() > Results<dim>::most_pairs_in_history)
+  if (has_many)
     log.line("Results of the pairs are in contacts.csv, not in history.csv: there are more than "
              + std::to_string(Results<dim>::most_pairs_in_history));
   log.line("Contact points: " + std::to_string(n_points));
@@ -274,11 +277,13 @@ Simulation<dim>::explain_failure(const NewtonResult &result)
   std::vector<unsigned int> flips(n_flips.size());
   dealii::Utilities::MPI::sum(n_flips, communicator, flips);
   for (unsigned int p = 0; p < summaries.size(); ++p)
-    log.line(
-      "  " + contact->pairs()[p].name + ": open/stick/slip " + short_number(summaries[p].open) + "/"
-      + short_number(summaries[p].stick) + "/" + short_number(summaries[p].slip) + ", smallest gap "
-      + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
-      + ", points that changed their state in the last iteration: " + std::to_string(flips[p]));
+    if (summaries.size() <= Results<dim>::most_pairs_in_history || flips[p] > 0)
+      log.line("  " + contact->pairs()[p].name + ": open/stick/slip "
+               + short_number(summaries[p].open) + "/" + short_number(summaries[p].stick) + "/"
+               + short_number(summaries[p].slip) + ", smallest gap "
+               + short_number(summaries[p].minimum_gap) + " at " + short_place(summaries[p].where)
+               + ", points that changed their state in the last iteration: "
+               + std::to_string(flips[p]));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                    \

@@ -203,22 +203,33 @@ BackgroundGrid<dim>::share(const std::vector<Body<dim>> &bodies)
 }
 
 template <int dim>
+double
+BackgroundGrid<dim>::refinement_distance(const double size) const
+{
+  const double h = finest_size(), excess = size - h - 1e-10 * h;
+  return excess <= 0. ? 0.
+                      : 0.5 * std::sqrt(double(dim)) * size + parameters.band * h
+                          + excess / parameters.grading;
+}
+
+template <int dim>
+double
+BackgroundGrid<dim>::reach_of_refinement() const
+{
+  return parameters.refinement == GridRefinement::uniform
+           ? 0.
+           : 2. * refinement_distance(parameters.cell_size(parameters.coarsest_level));
+}
+
+template <int dim>
 void
 BackgroundGrid<dim>::refine_by_contact(
   const std::vector<Body<dim>>                             &bodies,
   const std::vector<std::pair<unsigned int, unsigned int>> &pairs)
 {
-  const double                     h = finest_size();
   std::unique_ptr<Expression<dim>> limit;
   if (!parameters.cell_size_limit.empty())
     limit = std::make_unique<Expression<dim>>(parameters.cell_size_limit, 1, "Cell size limit");
-  const auto half_diagonal = [](const double size) { return 0.5 * std::sqrt(double(dim)) * size; };
-  // A cell is too large where its centre is nearer than this to a place of contact.
-  const auto distance_of_size = [&](const double size) {
-    const double excess = size - h - 1e-10 * h;
-    return excess <= 0. ? 0.
-                        : half_diagonal(size) + parameters.band * h + excess / parameters.grading;
-  };
   const std::set<std::pair<unsigned int, unsigned int>> may_touch(pairs.begin(), pairs.end());
   const CellBodies<dim>                                 cell_bodies(bodies);
   std::vector<unsigned int>                             nearest;
@@ -230,24 +241,26 @@ BackgroundGrid<dim>::refine_by_contact(
               && parameters.cell_size(cell->level())
                    > (1. + 1e-10) * positive_value(*limit, cell->center()))
             cell->set_refine_flag();
-      cell_bodies.visit(tria, distance_of_size, [&](const auto &cell, const auto &near) {
-        if (cell->level() == int(parameters.finest_level) || cell->refine_flag_set())
-          return;
-        // The level sets are distances; the place of contact is as far as the farther body.
-        const double distance = distance_of_size(parameters.cell_size(cell->level()));
-        nearest.clear();
-        for (const unsigned int b : near)
-          if (bodies[b].level_set.value(cell->center(), 1) < distance)
-            {
-              for (const unsigned int a : nearest)
-                if (may_touch.count({a, b}))
-                  {
-                    cell->set_refine_flag();
-                    return;
-                  }
-              nearest.push_back(b);
-            }
-      });
+      cell_bodies.visit(
+        tria, [&](const double size) { return refinement_distance(size); },
+        [&](const auto &cell, const auto &near) {
+          if (cell->level() == int(parameters.finest_level) || cell->refine_flag_set())
+            return;
+          // The level sets are distances; the place of contact is as far as the farther body.
+          const double distance = refinement_distance(parameters.cell_size(cell->level()));
+          nearest.clear();
+          for (const unsigned int b : near)
+            if (bodies[b].level_set.value(cell->center(), 1) < distance)
+              {
+                for (const unsigned int a : nearest)
+                  if (may_touch.count({a, b}))
+                    {
+                      cell->set_refine_flag();
+                      return;
+                    }
+                nearest.push_back(b);
+              }
+        });
       tria.execute_coarsening_and_refinement();
     }
 }

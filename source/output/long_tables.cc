@@ -120,7 +120,7 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
   contact_rows.clear();
   body_rows.clear();
   pairs_of_rows.clear();
-  has_pairs = !pairs.empty();
+  has_pairs |= !pairs.empty();
   is_moving = geometry_is_moving;
   std::vector<Resultant<dim>> on_body(bodies.size());
   std::vector<unsigned int>   n_contacts(bodies.size());
@@ -135,7 +135,7 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
       if (met.count(unique_pair) == 0)
         continue;
       add_contact(step, time, pairs[p], summary, motions);
-      pairs_of_rows.push_back(p);
+      pairs_of_rows.push_back(unique_pair);
       on_body[a].force -= summary.force;
       on_body[b].force += summary.force;
       on_body[a].moment -= moment_about(motions[a], summary);
@@ -158,10 +158,15 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
 
 template <int dim>
 void
-LongTables<dim>::add_transfers(const std::vector<dealii::Tensor<1, dim>> &force_jumps)
+LongTables<dim>::add_transfers(
+  const std::map<std::pair<unsigned int, unsigned int>, dealii::Tensor<1, dim>> &force_jumps)
 {
   for (unsigned int i = 0; i < contact_rows.size(); ++i)
-    add_vector<dim>(force_jumps[pairs_of_rows[i]], contact_rows[i]);
+    {
+      const auto jump = force_jumps.find(pairs_of_rows[i]);
+      add_vector<dim>(jump == force_jumps.end() ? dealii::Tensor<1, dim>() : jump->second,
+                      contact_rows[i]);
+    }
 }
 
 template <int dim>

@@ -98,10 +98,11 @@ add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &m
 
 template <int dim>
 Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
-                      const std::vector<ProbeParameters<dim>> &probes)
+                      const std::vector<ProbeParameters<dim>> &probes, const bool pairs_change)
     : directory(directory)
     , bodies(bodies)
     , probes(probes)
+    , pairs_change(pairs_change)
     , long_tables(directory, bodies)
 {
 }
@@ -120,7 +121,7 @@ template <int dim>
 std::set<std::string>
 Results<dim>::left_out(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
 {
-  if (contact.pairs().size() <= most_pairs_in_history)
+  if (pairs_change || contact.pairs().size() <= most_pairs_in_history)
     return {};
   const auto            names = pair_columns<dim>(contact.pairs());
   std::set<std::string> result(names.begin(), names.end());
@@ -139,7 +140,8 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
 {
   std::vector<std::string> names
     = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
-  const auto of_pairs = pair_columns<dim>(contact.pairs());
+  const auto of_pairs
+    = pairs_change ? std::vector<std::string>() : pair_columns<dim>(contact.pairs());
   names.insert(names.end(), of_pairs.begin(), of_pairs.end());
   for (const std::string &condition : equilibrium.condition_names())
     add_resultant_names<dim>(condition, names);
@@ -159,7 +161,8 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
     if (!body.is_rigid())
       for (const std::string column : {"volume", "point_volume", "mass", "points"})
         names.push_back(body.name + "." + column);
-  const auto transfers = transfer_columns<dim>(contact.pairs());
+  const auto transfers
+    = pairs_change ? std::vector<std::string>() : transfer_columns<dim>(contact.pairs());
   names.insert(names.end(), transfers.begin(), transfers.end());
   names.push_back("islands");
   names.push_back("widened_transfers");
@@ -235,7 +238,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
-  for (const auto &summary : summaries)
+  for (const auto &summary : pairs_change ? decltype(summaries)() : summaries)
     {
       add_resultant<dim>(summary.force, summary.moment, values);
       for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
@@ -272,8 +275,8 @@ Results<dim>::gather_motion(const MotionRecord<dim> &motion)
       for (const double value : {motion.volumes[b], motion.points[b].volume, motion.points[b].mass,
                                  double(motion.points[b].count)})
         history_row.push_back(value);
-  for (const dealii::Tensor<1, dim> &jump : motion.force_jumps)
-    for (unsigned int d = 0; d < dim; ++d)
+  for (const auto &[pair, jump] : motion.force_jumps)
+    for (unsigned int d = 0; d < dim && !pairs_change; ++d)
       history_row.push_back(jump[d]);
   long_tables.add_transfers(motion.force_jumps);
   history_row.push_back(motion.n_islands);
@@ -405,7 +408,7 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
                                        kept(names, names, left_out(equilibrium, contact)),
                                        record.n_history_rows);
   long_tables.resume(record.long_tables, !equilibrium.is_linear_but_for_contact(),
-                     !contact.pairs().empty());
+                     pairs_change || !contact.pairs().empty());
   if (record.n_probe_rows > 0)
     probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),
                                              record.n_probe_rows);

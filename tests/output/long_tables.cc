@@ -154,7 +154,7 @@ write_step(LongTables<2> &tables, const double step, const bool is_closed)
   std::vector<MeanMotion<2>> motions(2);
   motions[1].position = Point<2>(2., 0.);
   tables.gather(step, 0.5 * step, {{0, 1, "a-b", {}}}, {summary}, motions, true);
-  tables.add_transfers({Tensor<1, 2>({0.25, 0.})});
+  tables.add_transfers({{{0u, 1u}, Tensor<1, 2>({0.25, 0.})}});
   tables.write();
 }
 

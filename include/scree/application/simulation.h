@@ -82,7 +82,12 @@ public:
   unsigned int n_unknowns() const;
 
 private:
-  void                     set_up();
+  void set_up();
+  /** Whether there is a law between two bodies that is not trivial. */
+  bool may_touch(const unsigned int a, const unsigned int b) const;
+  /** Whether there are more pairs of bodies that may touch than history.csv has columns for. */
+  bool has_many_pairs() const;
+  /** Those that may touch before the pairs are found again. */
   std::vector<ContactPair> find_pairs() const;
   /** Lattice nodes coincide with the support points of degree k on the finest cells. */
   LatticeFrame<dim> lattice_frame() const;
@@ -212,6 +217,7 @@ private:
   std::unique_ptr<BackgroundGrid<dim>> grid;
   std::vector<Body<dim>>               bodies;
   std::vector<ContactPair>             pairs;
+  bool                                 pairs_change = false; //!< found in every step
   std::unique_ptr<LevelSetNodes<dim>>  level_set_nodes;
   std::unique_ptr<Fields<dim>>         fields;
   std::unique_ptr<CutQuadrature<dim>>  quadrature;

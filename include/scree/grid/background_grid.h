@@ -127,6 +127,9 @@ public:
     return local_of_active[cell.active_cell_index()];
   }
 
+  /** Bodies that are closer to each other than this refine the grid between them [L]. */
+  double reach_of_refinement() const;
+
   /** Edge of the finest cells [L]. */
   double finest_size() const
   {
@@ -158,6 +161,8 @@ private:
   void refine_by(const WantedLevels &wanted);
   void refine_by_contact(const std::vector<Body<dim>>                             &bodies,
                          const std::vector<std::pair<unsigned int, unsigned int>> &pairs);
+  /** A cell of this edge is too large where its centre is nearer to a place of contact [L]. */
+  double refinement_distance(const double size) const;
   /** Divides the cells among the processes by the bodies they carry. */
   void          share(const std::vector<Body<dim>> &bodies);
   std::uint64_t key_of(const dealii::Point<dim> &point) const;

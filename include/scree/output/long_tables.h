@@ -6,6 +6,7 @@
 
 #include <boost/serialization/set.hpp>
 #include <boost/serialization/utility.hpp>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -46,8 +47,9 @@ public:
               const std::vector<ContactSummary<dim>> &summaries,
               const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving);
 
-  /** Adds the changes of the tangential forces of all pairs: see MotionRecord. */
-  void add_transfers(const std::vector<dealii::Tensor<1, dim>> &force_jumps);
+  /** Adds the changes of the tangential forces of pairs: see MotionRecord. */
+  void add_transfers(
+    const std::map<std::pair<unsigned int, unsigned int>, dealii::Tensor<1, dim>> &force_jumps);
 
   /** Writes the gathered rows; contacts.csv only if there are pairs. */
   void write();
@@ -70,12 +72,12 @@ private:
   void                 add_contact(const double step, const double time, const ContactPair &pair,
                                    const ContactSummary<dim> &summary, const std::vector<MeanMotion<dim>> &motions);
 
-  std::string                                     directory;
-  const std::vector<Body<dim>>                   &bodies;
-  std::unique_ptr<CsvTable>                       contact_table, body_table;
-  std::set<std::pair<unsigned int, unsigned int>> met;
-  bool                                            has_pairs = false, is_moving = false;
-  std::vector<std::vector<std::string>>           contact_rows, body_rows; //!< to be written
-  std::vector<unsigned int>                       pairs_of_rows;
+  std::string                                        directory;
+  const std::vector<Body<dim>>                      &bodies;
+  std::unique_ptr<CsvTable>                          contact_table, body_table;
+  std::set<std::pair<unsigned int, unsigned int>>    met;
+  bool                                               has_pairs = false, is_moving = false;
+  std::vector<std::vector<std::string>>              contact_rows, body_rows; //!< to be written
+  std::vector<std::pair<unsigned int, unsigned int>> pairs_of_rows;
 };
 } // namespace scree

@@ -9,6 +9,7 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -34,10 +35,11 @@ struct MotionRecord
 {
   std::vector<double>           volumes; //!< of all bodies by their level sets [L^dim]
   std::vector<PointTotals<dim>> points;  //!< of all bodies
-  /** By how much the tangential force of each pair changed when its points were found anew. */
-  std::vector<dealii::Tensor<1, dim>> force_jumps;
-  MovingLeastSquaresReport            transfer_report;
-  unsigned int                        n_islands = 0;
+  /** By how much the tangential forces of pairs (a, b) changed when their points were found anew.
+   */
+  std::map<std::pair<unsigned int, unsigned int>, dealii::Tensor<1, dim>> force_jumps;
+  MovingLeastSquaresReport                                                transfer_report;
+  unsigned int                                                            n_islands = 0;
 };
 
 /** What was written so far: a run that is resumed goes on after it. */
@@ -67,8 +69,9 @@ public:
   /** history.csv has columns of pairs only if there are at most as many. */
   static constexpr unsigned int most_pairs_in_history = 30;
 
+  /** @param pairs_change from step to step: history.csv has no columns of them */
   Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
-          const std::vector<ProbeParameters<dim>> &probes);
+          const std::vector<ProbeParameters<dim>> &probes, const bool pairs_change);
 
   /** What the next results refer to; to be told whenever it was made anew. */
   void set_discretization(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes);
@@ -145,6 +148,7 @@ private:
   std::string                                 directory;
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
+  bool                                        pairs_change;
   const Fields<dim>                          *fields = nullptr;
   std::unique_ptr<BodyOutput<dim>>            body_output;
   bool                                        is_first = false; //!< this process writes the tables
