@@ -30,6 +30,12 @@ CellBodies<dim>::CellBodies(const std::vector<Body<dim>> &bodies)
 }
 
 template <int dim>
+CellBodies<dim>::CellBodies(const BodyBoxes<dim> &boxes)
+    : boxes(boxes)
+{
+}
+
+template <int dim>
 void
 CellBodies<dim>::visit(const Triangulation &grid, const Reach &reach, const Visit &visit) const
 {

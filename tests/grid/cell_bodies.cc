@@ -18,10 +18,10 @@ using namespace dealii;
 
 /** Boxes along a spiral, of edges 0.05 to 0.6. */
 template <int dim>
-std::vector<Body<dim>>
-scattered_bodies(const unsigned int n)
+std::vector<BoundingBox<dim>>
+scattered_boxes(const unsigned int n)
 {
-  std::vector<Body<dim>> bodies(n);
+  std::vector<BoundingBox<dim>> boxes;
   for (unsigned int b = 0; b < n; ++b)
     {
       const double angle = 0.7 * b, radius = 0.9 * b / n;
@@ -30,10 +30,10 @@ scattered_bodies(const unsigned int n)
       centre[1] = -0.02 + radius * std::sin(angle);
       if (dim == 3)
         centre[2] = 0.8 * std::cos(1.3 * b);
-      bodies[b].box = BoundingBox<dim>({centre, centre});
-      bodies[b].box.extend(0.025 + 0.275 * std::pow(std::sin(b), 2));
+      boxes.push_back(BoundingBox<dim>({centre, centre}));
+      boxes.back().extend(0.025 + 0.275 * std::pow(std::sin(b), 2));
     }
-  return bodies;
+  return boxes;
 }
 
 template <int dim>
@@ -50,25 +50,25 @@ expect_all_found()
   parameters.refinement   = GridRefinement::uniform;
   parameters.finest_level = dim == 2 ? 4 : 3;
   const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
-  const auto                bodies = scattered_bodies<dim>(40);
-  const auto                reach  = [](const double size) { return 0.02 + size; };
+  const auto                boxes = scattered_boxes<dim>(40);
+  const auto                reach = [](const double size) { return 0.02 + size; };
   std::map<unsigned int, std::vector<unsigned int>> found;
-  CellBodies<dim>(bodies).visit(grid.triangulation(), reach,
-                                [&](const auto &cell, const std::vector<unsigned int> &near) {
-                                  EXPECT_TRUE(found.emplace(grid.local_index(*cell), near).second);
-                                });
+  CellBodies<dim>(BodyBoxes<dim>(boxes))
+    .visit(grid.triangulation(), reach,
+           [&](const auto &cell, const std::vector<unsigned int> &near) {
+             EXPECT_TRUE(found.emplace(grid.local_index(*cell), near).second);
+           });
   unsigned int n_found = 0;
   for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
     {
       const GridCell<dim>      &cell = grid.cells()[c];
       std::vector<unsigned int> expected;
-      for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int b = 0; b < boxes.size(); ++b)
         {
           bool is_near = true;
           for (unsigned int d = 0; d < dim; ++d)
-            is_near
-              &= cell.lower[d] - reach(cell.size) <= bodies[b].box.upper_bound(d)
-                 && cell.lower[d] + cell.size + reach(cell.size) >= bodies[b].box.lower_bound(d);
+            is_near &= cell.lower[d] - reach(cell.size) <= boxes[b].upper_bound(d)
+                       && cell.lower[d] + cell.size + reach(cell.size) >= boxes[b].lower_bound(d);
           if (is_near)
             expected.push_back(b);
         }

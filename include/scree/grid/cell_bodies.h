@@ -28,6 +28,7 @@ public:
   using Visit = std::function<void(const Cell &cell, const std::vector<unsigned int> &bodies)>;
 
   explicit CellBodies(const std::vector<Body<dim>> &bodies);
+  explicit CellBodies(const BodyBoxes<dim> &boxes);
 
   /** Visits the owned active cells that have bodies near. */
   void visit(const Triangulation &grid, const Reach &reach, const Visit &visit) const;
