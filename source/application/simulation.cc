@@ -11,6 +11,31 @@
 
 namespace scree
 {
+namespace
+{
+/** Whether there is a law between two bodies, and a motion that it acts on. */
+template <int dim>
+bool
+may_touch(const Body<dim> &a, const Body<dim> &b, const ContactParameters &contact)
+{
+  const auto is_driven
+    = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
+  return contact.law_of(a.name, b.name).law != ContactLaw::none && !(is_driven(a) && is_driven(b));
+}
+
+/** Whether more pairs of bodies may touch than history.csv has columns for. */
+template <int dim>
+bool
+has_many_pairs(const std::vector<Body<dim>> &bodies, const ContactParameters &contact)
+{
+  unsigned int n_pairs = 0;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (unsigned int a = 0; a < b && n_pairs <= Results<dim>::most_pairs_in_history; ++a)
+      n_pairs += may_touch(bodies[a], bodies[b], contact);
+  return n_pairs > Results<dim>::most_pairs_in_history;
+}
+} // namespace
+
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
                             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint)
@@ -50,7 +75,7 @@ Simulation<dim>::set_up()
 
   if (is_moving())
     require_movable(bodies);
-  pairs_change = is_moving() && has_many_pairs();
+  pairs_change = is_moving() && has_many_pairs(bodies, parameters.contact);
   pairs        = find_pairs();
   require_distinct(bodies, pairs);
   discretise();
@@ -161,27 +186,6 @@ Simulation<dim>::lattice_margin() const
 }
 
 template <int dim>
-bool
-Simulation<dim>::may_touch(const unsigned int a, const unsigned int b) const
-{
-  const auto is_driven
-    = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
-  return parameters.contact.law_of(bodies[a].name, bodies[b].name).law != ContactLaw::none
-         && !(is_driven(bodies[a]) && is_driven(bodies[b]));
-}
-
-template <int dim>
-bool
-Simulation<dim>::has_many_pairs() const
-{
-  unsigned int n_pairs = 0;
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    for (unsigned int a = 0; a < b && n_pairs <= Results<dim>::most_pairs_in_history; ++a)
-      n_pairs += may_touch(a, b);
-  return n_pairs > Results<dim>::most_pairs_in_history;
-}
-
-template <int dim>
 std::vector<ContactPair>
 Simulation<dim>::find_pairs() const
 {
@@ -196,7 +200,7 @@ Simulation<dim>::find_pairs() const
     }
   std::vector<ContactPair> result;
   for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
-    if (may_touch(a, b))
+    if (may_touch(bodies[a], bodies[b], parameters.contact))
       result.push_back({a, b, bodies[a].name + "-" + bodies[b].name,
                         parameters.contact.law_of(bodies[a].name, bodies[b].name)});
   return result;

@@ -83,10 +83,6 @@ public:
 
 private:
   void set_up();
-  /** Whether there is a law between two bodies that is not trivial. */
-  bool may_touch(const unsigned int a, const unsigned int b) const;
-  /** Whether there are more pairs of bodies that may touch than history.csv has columns for. */
-  bool has_many_pairs() const;
   /** Those that may touch before the pairs are found again. */
   std::vector<ContactPair> find_pairs() const;
   /** Lattice nodes coincide with the support points of degree k on the finest cells. */
@@ -95,8 +91,7 @@ private:
   double lattice_margin() const;
   /** Grid, fields, quadrature, contact points and equations of the present geometry. */
   void discretise();
-  /** Contact points and equations. */
-  void set_up_equilibrium();
+  void set_up_equilibrium(); //!< contact points and equations
   bool is_moving() const
   {
     return parameters.moving.is_moving;
@@ -245,12 +240,11 @@ private:
   bool                                 is_transient       = false; //!< K has more artificial mass
   bool is_second_attempt = false; //!< in the step being solved, which failed before
   bool is_too_large      = false; //!< the solution of the step, for the moving geometry
-  std::set<std::pair<unsigned int, unsigned int>>
-    warned_pairs; //!< told once; (b, b): body b at the box, (b, none): out of balance,
-                  //!< (b, a) with b > a: under-resolved
-  std::set<unsigned int>     warned_rotations; //!< bodies, told once
-  std::vector<bool>          was_closed;       //!< contact points, at the end of some step
-  std::vector<ContactStatus> last_status;      //!< of the contact points in the last iteration
-  std::vector<unsigned int>  n_flips;          //!< per pair
+  /** Told once; (b, b): at the box, (b, none): out of balance, (b, a), b > a: under-resolved. */
+  std::set<std::pair<unsigned int, unsigned int>> warned_pairs;
+  std::set<unsigned int>                          warned_rotations; //!< bodies, told once
+  std::vector<bool>          was_closed;  //!< contact points, at the end of some step
+  std::vector<ContactStatus> last_status; //!< of the contact points in the last iteration
+  std::vector<unsigned int>  n_flips;     //!< per pair
 };
 } // namespace scree
