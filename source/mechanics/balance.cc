@@ -1,3 +1,4 @@
+#include <scree/base/joint_sum.h>
 #include <scree/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,41 +20,24 @@ struct NodeSums
   dealii::Tensor<2, dim> x_x;         //!< sum of x x^T
   dealii::Tensor<1, 3>   x_u, moment; //!< sums of x cross u, x cross f; moment about the origin
   double                 scale = 0.;
-
-  static constexpr unsigned int n_values = 2 + 3 * dim + dim * dim + 6;
-
-  template <typename F>
-  void for_each(const F &f)
-  {
-    f(n);
-    f(scale);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        f(x[d]);
-        f(u[d]);
-        f(force[d]);
-        for (unsigned int e = 0; e < dim; ++e)
-          f(x_x[d][e]);
-      }
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        f(x_u[d]);
-        f(moment[d]);
-      }
-  }
 };
 
 template <int dim>
 void
 sum_over_processes(std::vector<NodeSums<dim>> &sums, const MPI_Comm communicator)
 {
-  std::vector<double> values;
+  JointSum joint;
   for (auto &sum : sums)
-    sum.for_each([&](const double value) { values.push_back(value); });
-  dealii::Utilities::MPI::sum(values, communicator, values);
-  auto value = values.begin();
-  for (auto &sum : sums)
-    sum.for_each([&](double &entry) { entry = *value++; });
+    {
+      joint.add(sum.n);
+      joint.add(sum.scale);
+      for (auto *vector : {&sum.x, &sum.u, &sum.force})
+        joint.add(*vector);
+      joint.add(sum.x_x);
+      for (auto *vector : {&sum.x_u, &sum.moment})
+        joint.add(*vector);
+    }
+  joint.reduce(communicator);
 }
 
 /** |omega| of the u = a + omega cross x that fits best at the nodes. */

@@ -1,3 +1,4 @@
+#include <scree/base/joint_sum.h>
 #include <scree/base/log.h>
 #include <scree/mechanics/free_bodies.h>
 
@@ -45,16 +46,12 @@ null_space(const DenseMatrix &matrix, const double negligible = 1e-6)
 void
 sum_over_processes(std::vector<DenseMatrix> &matrices, const MPI_Comm communicator)
 {
-  std::vector<double> all;
-  for (const auto &matrix : matrices)
-    for (unsigned int i = 0; i < matrix.m(); ++i)
-      all.insert(all.end(), matrix.begin(i), matrix.end(i));
-  dealii::Utilities::MPI::sum(all, communicator, all);
-  auto value = all.begin();
+  JointSum sum;
   for (auto &matrix : matrices)
     for (unsigned int i = 0; i < matrix.m(); ++i)
       for (unsigned int j = 0; j < matrix.n(); ++j)
-        matrix(i, j) = *value++;
+        sum.add(matrix(i, j));
+  sum.reduce(communicator);
 }
 
 } // namespace
