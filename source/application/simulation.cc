@@ -8,19 +8,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scree
 {
 namespace
 {
-/** Whether there is a law between two bodies, and a motion that it acts on. */
+/** The law between two bodies; none if they pass through each other or none of them can respond. */
 template <int dim>
-bool
-may_touch(const Body<dim> &a, const Body<dim> &b, const ContactParameters &contact)
+std::optional<ContactPairParameters>
+law_between(const Body<dim> &a, const Body<dim> &b, const ContactParameters &contact)
 {
   const auto is_driven
     = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
-  return contact.law_of(a.name, b.name).law != ContactLaw::none && !(is_driven(a) && is_driven(b));
+  if (is_driven(a) && is_driven(b))
+    return {};
+  const auto law = contact.law_of(a.name, b.name);
+  if (law.law == ContactLaw::none)
+    return {};
+  return law;
 }
 
 /** Whether more pairs of bodies may touch than history.csv has columns for. */
@@ -31,7 +37,7 @@ has_many_pairs(const std::vector<Body<dim>> &bodies, const ContactParameters &co
   unsigned int n_pairs = 0;
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (unsigned int a = 0; a < b && n_pairs <= Results<dim>::most_pairs_in_history; ++a)
-      n_pairs += may_touch(bodies[a], bodies[b], contact);
+      n_pairs += law_between(bodies[a], bodies[b], contact).has_value();
   return n_pairs > Results<dim>::most_pairs_in_history;
 }
 } // namespace
@@ -200,9 +206,8 @@ Simulation<dim>::find_pairs() const
     }
   std::vector<ContactPair> result;
   for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
-    if (may_touch(bodies[a], bodies[b], parameters.contact))
-      result.push_back({a, b, bodies[a].name + "-" + bodies[b].name,
-                        parameters.contact.law_of(bodies[a].name, bodies[b].name)});
+    if (const auto law = law_between(bodies[a], bodies[b], parameters.contact))
+      result.push_back({a, b, bodies[a].name + "-" + bodies[b].name, *law});
   return result;
 }
 

@@ -15,16 +15,6 @@ namespace scree
 {
 namespace
 {
-template <int dim>
-dealii::Point<dim>
-centre(const GridCell<dim> &cell)
-{
-  dealii::Point<dim> result = cell.lower;
-  for (unsigned int d = 0; d < dim; ++d)
-    result[d] += 0.5 * cell.size;
-  return result;
-}
-
 /** Cuts the contact surface of one pair from cells. */
 template <int dim>
 class PairSurface
@@ -111,9 +101,9 @@ std::vector<ContactPoint<dim>>
 PairSurface<dim>::points(const unsigned int c, const GridCell<dim> &cell, const unsigned int number)
 {
   Values phi_a, phi_b, psi, scaled, shape;
-  level_set_nodes.facing_values(c, a, -b.level_set.value_and_gradient(centre(cell), 1).second,
+  level_set_nodes.facing_values(c, a, -b.level_set.value_and_gradient(cell.centre(), 1).second,
                                 phi_a.data());
-  level_set_nodes.facing_values(c, b, -a.level_set.value_and_gradient(centre(cell), 1).second,
+  level_set_nodes.facing_values(c, b, -a.level_set.value_and_gradient(cell.centre(), 1).second,
                                 phi_b.data());
   for (unsigned int i = 0; i < basis.n_nodes; ++i)
     psi[i] = phi_a[i] - phi_b[i];
@@ -172,7 +162,7 @@ cells_of_pairs(const BackgroundGrid<dim> &grid, const std::vector<Body<dim>> &bo
       here.clear();
       for (const unsigned int b : near)
         {
-          const double at_b = bodies[b].level_set.value(centre(cell), 1);
+          const double at_b = bodies[b].level_set.value(cell.centre(), 1);
           if (at_b > shift + reach)
             continue;
           for (const auto &[a, at_a] : here)
@@ -197,19 +187,18 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
   KinkedSurface<dim>             kinked(distances, bodies, fields.basis);
   std::vector<ContactPoint<dim>> points;
   const auto                     of_pairs = cells_of_pairs(grid, bodies, pairs, shift);
-  for (auto [p, c] = std::pair(0u, of_pairs.begin()); c != of_pairs.end(); ++p)
+  for (auto entry = of_pairs.begin(); entry != of_pairs.end();)
     {
-      if (c->first != p)
-        continue;
+      const unsigned int  p = entry->first;
       PairSurface<dim>    surface(fields.basis, level_set_nodes, bodies, pairs[p], distances,
                                   nodal_normals);
       const LeastGap<dim> least_gap(distances, bodies, pairs[p]);
-      for (; c != of_pairs.end() && c->first == p; ++c)
+      for (; entry != of_pairs.end() && entry->first == p; ++entry)
         {
-          const GridCell<dim> &cell      = grid.cells()[c->second];
+          const unsigned int   c         = entry->second;
+          const GridCell<dim> &cell      = grid.cells()[c];
           const bool           is_kinked = kinked.concerns(pairs[p], cell);
-          auto                 of_cell
-            = is_kinked ? kinked.points(p, pairs[p], cell) : surface.points(c->second, cell, p);
+          auto of_cell = is_kinked ? kinked.points(p, pairs[p], cell) : surface.points(c, cell, p);
           // An edge or corner has small points of its own.
           if (!is_kinked)
             least_gap.add_point(cell, of_cell);

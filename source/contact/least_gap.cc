@@ -83,7 +83,11 @@ template <int dim>
 double
 LeastGap<dim>::gap(const dealii::Point<dim> &x) const
 {
-  return distance(pair.a, x).first + distance(pair.b, x).first;
+  double result = 0.;
+  for (const unsigned int body : {pair.a, pair.b})
+    result += distances.is_known(body, x) ? distances.value(body, x)
+                                          : bodies[body].level_set.value(x, 3);
+  return result;
 }
 
 template <int dim>
@@ -99,13 +103,14 @@ LeastGap<dim>::minimum(const dealii::Point<dim> &start, const double size) const
       const Tensor normal   = distance(pair.a, result.x).second - distance(pair.b, result.x).second;
       const auto   tangents = surface_tangents<dim>(normal / normal.norm());
       const auto   at       = [&](const Tensor &offset) { return gap(result.x + step * offset); };
+      const double here     = gap(result.x);
       dealii::Tensor<1, dim - 1>          f;
       dealii::SymmetricTensor<2, dim - 1> H;
       for (unsigned int k = 0; k < dim - 1; ++k)
         {
           const double before = at(-tangents[k]), after = at(tangents[k]);
           f[k]    = (after - before) / (2. * step);
-          H[k][k] = (before - 2. * at({}) + after) / (step * step);
+          H[k][k] = (before - 2. * here + after) / (step * step);
           for (unsigned int l = 0; l < k; ++l)
             H[k][l] = (at(tangents[k] + tangents[l]) - at(tangents[k] - tangents[l])
                        - at(tangents[l] - tangents[k]) + at(-tangents[k] - tangents[l]))

@@ -160,12 +160,9 @@ template <int dim>
 CellCut<dim>
 LevelSetNodes<dim>::cut(const unsigned int cell, const Body<dim> &body) const
 {
-  const GridCell<dim> &geometry = grid.cells()[cell];
-  dealii::Point<dim>   centre   = geometry.lower;
-  for (unsigned int d = 0; d < dim; ++d)
-    centre[d] += 0.5 * geometry.size;
-  const double at_centre = body.level_set.value(centre, 1);
-  CellCut<dim> result;
+  const GridCell<dim> &geometry  = grid.cells()[cell];
+  const double         at_centre = body.level_set.value(geometry.centre(), 1);
+  CellCut<dim>         result;
   if (std::abs(at_centre) > 1.5 * std::sqrt(double(dim)) * geometry.size)
     {
       result.location = at_centre < 0. ? CellLocation::inside : CellLocation::outside;

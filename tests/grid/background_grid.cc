@@ -17,16 +17,6 @@ namespace
 {
 using namespace dealii;
 
-template <int dim>
-Point<dim>
-centre(const GridCell<dim> &cell)
-{
-  Point<dim> result = cell.lower;
-  for (unsigned int d = 0; d < dim; ++d)
-    result[d] += 0.5 * cell.size;
-  return result;
-}
-
 /** Bodies are only needed to refine; a grid alone is enough here. */
 template <int dim>
 BodiesInput<dim>
@@ -81,7 +71,7 @@ check_locate(const BackgroundGrid<dim> &grid)
   // Points of all processes: a cell is owned by exactly the process that locate() names.
   std::vector<Point<dim>> centres;
   for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-    centres.push_back(centre(grid.cells()[c]));
+    centres.push_back(grid.cells()[c].centre());
   const auto   all = Utilities::MPI::all_gather(MPI_COMM_WORLD, centres);
   unsigned int n   = 0;
   for (unsigned int owner = 0; owner < all.size(); ++owner)
@@ -142,8 +132,8 @@ check_grading(const RefinedGrid<dim> &model, const double band, const double gra
     {
       largest = std::max(largest, cell.size);
       // Everywhere in the cell, its size is allowed by the distance of its nearest point.
-      const double distance = std::max(model.bodies[0].level_set.value(centre(cell), 1),
-                                       model.bodies[1].level_set.value(centre(cell), 1))
+      const double distance = std::max(model.bodies[0].level_set.value(cell.centre(), 1),
+                                       model.bodies[1].level_set.value(cell.centre(), 1))
                               - 0.5 * std::sqrt(double(dim)) * cell.size;
       EXPECT_LE(cell.size, (1. + 1e-9) * (h + grading * std::max(0., distance - band * h)));
       for (const unsigned int f : cell.iterator->face_indices())
@@ -169,7 +159,7 @@ check_wanted_levels(const BackgroundGrid<dim> &old, const unsigned int more)
   std::vector<unsigned int> levels;
   for (unsigned int c = 0; c < old.n_owned_cells(); ++c)
     levels.push_back(old.cells()[c].iterator->level()
-                     + (centre(old.cells()[c]).distance(Point<dim>()) < 0.3 ? more : 0));
+                     + (old.cells()[c].centre().distance(Point<dim>()) < 0.3 ? more : 0));
   const auto          wanted = std::make_shared<const WantedLevels>(old.wanted_levels(levels));
   BackgroundGrid<dim> grid(old.grid_parameters().with(wanted), MPI_COMM_WORLD);
   grid.refine({}, {});
@@ -179,7 +169,7 @@ check_wanted_levels(const BackgroundGrid<dim> &old, const unsigned int more)
   unsigned int n_wanted = 0;
   for (const auto &cell : grid.cells())
     {
-      const auto location = old.locate(centre(cell));
+      const auto location = old.locate(cell.centre());
       if (location.local_cell < 0 || location.local_cell >= int(old.n_owned_cells()))
         continue;
       const unsigned int level = cell.iterator->level();
@@ -208,7 +198,7 @@ TEST(BackgroundGrid, CellSizeLimit)
   const RefinedGrid<2> model(two_balls<2>(6, 0, "set Cell size limit = if(y > 0.5, 0.0625, 10)\n"));
   unsigned int         n_above = 0;
   for (const auto &cell : model.grid.cells())
-    if (centre(cell)[1] > 0.5)
+    if (cell.centre()[1] > 0.5)
       {
         ++n_above;
         EXPECT_LE(cell.size, 0.0625);

@@ -70,6 +70,14 @@ struct GridCell
   double                                                    size;  //!< edge [L]
   std::uint64_t                                             key;   //!< Morton key of the corner
   typename dealii::Triangulation<dim>::active_cell_iterator iterator;
+
+  dealii::Point<dim> centre() const
+  {
+    dealii::Point<dim> result = lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] += 0.5 * size;
+    return result;
+  }
 };
 
 /**
