@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'contrib'))
-from plotting.pairs import pair_columns
+from plotting.pairs import with_pair_columns
 
 
 def read_csv(path):
@@ -30,9 +30,7 @@ def read_csv(path):
 
 def read_history(results):
     """history.csv, with the columns of pairs that it leaves out when there are many."""
-    history = read_csv(os.path.join(results, 'history.csv'))
-    of_pairs = pair_columns(results, history['step'])
-    return {**{name: np.array(values) for name, values in of_pairs.items()}, **history}
+    return with_pair_columns(results, read_csv(os.path.join(results, 'history.csv')))
 
 
 def last_contact(results, step=None):

@@ -2,6 +2,8 @@
 import csv
 from pathlib import Path
 
+import numpy as np
+
 NO_COLUMNS = {"step", "time", "pair", "body_a", "body_b"}
 
 
@@ -22,3 +24,9 @@ def pair_columns(directory, steps):
                                             [float("nan") if name == "minimum_gap" else 0.0] * len(place))
                 values[place[int(row["step"])]] = float(word)
     return columns
+
+
+def with_pair_columns(directory, history):
+    """The columns of history.csv and those that it leaves out, as arrays."""
+    of_pairs = pair_columns(directory, history["step"])
+    return {**{name: np.array(values) for name, values in of_pairs.items()}, **history}

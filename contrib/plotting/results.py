@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .pairs import pair_columns
+from .pairs import with_pair_columns
 
 
 class ResultsError(Exception):
@@ -183,9 +183,7 @@ class RunResults:
 
     def history(self):
         """With the columns of pairs, wherever they are."""
-        history = read_table(self.directory / "history.csv")
-        of_pairs = pair_columns(self.directory, history["step"])
-        return {**{name: np.array(values) for name, values in of_pairs.items()}, **history}
+        return with_pair_columns(self.directory, read_table(self.directory / "history.csv"))
 
     def read_parameters(self):
         """The resolved parameters as {"Section/Subsection/Key": text}; those of a cycle are one directory up."""

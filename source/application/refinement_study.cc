@@ -287,8 +287,7 @@ RefinementStudy<dim>::write_table()
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     {
       CsvTable table(directory + "/study.csv", names);
-      for (const auto &row : rows)
-        table.add_row(row);
+      table.add_rows(rows);
     }
   const auto print = [&](const auto &text_of_column) {
     std::ostringstream line;

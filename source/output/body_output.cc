@@ -1,4 +1,5 @@
 #include <scree/output/body_output.h>
+#include <scree/output/column_names.h>
 #include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -148,8 +149,7 @@ template <int dim>
 std::vector<std::string>
 field_names()
 {
-  std::vector<std::string>       names(dim, "displacement");
-  const std::vector<std::string> axes = {"x", "y", "z"};
+  std::vector<std::string> names(dim, "displacement");
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
       names.push_back("stress_" + axes[i] + axes[j]);

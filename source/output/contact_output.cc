@@ -1,4 +1,5 @@
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/output/column_names.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/vtu_files.h>
 
@@ -52,8 +53,7 @@ template <int dim>
 std::vector<std::string>
 contact_columns()
 {
-  std::vector<std::string>       names = {"pair"};
-  const std::vector<std::string> axes  = {"x", "y", "z"};
+  std::vector<std::string> names = {"pair"};
   for (const std::string prefix : {"", "normal_"})
     for (unsigned int d = 0; d < dim; ++d)
       names.push_back(prefix + axes[d]);

@@ -77,9 +77,28 @@ CsvTable::~CsvTable()
 void
 CsvTable::add_row(const std::vector<double> &values)
 {
+  append(values);
+  flush();
+}
+
+template <typename T>
+void
+CsvTable::add_rows(const std::vector<std::vector<T>> &rows)
+{
+  for (const auto &row : rows)
+    append(row);
+  flush();
+}
+
+template void CsvTable::add_rows(const std::vector<std::vector<double>> &);
+template void CsvTable::add_rows(const std::vector<std::vector<std::string>> &);
+
+void
+CsvTable::append(const std::vector<double> &values)
+{
   std::vector<std::string> words(values.size());
   std::transform(values.begin(), values.end(), words.begin(), word);
-  add_row(words);
+  append(words);
 }
 
 std::string
@@ -91,12 +110,11 @@ CsvTable::word(const double value)
 }
 
 void
-CsvTable::add_row(const std::vector<std::string> &words)
+CsvTable::append(const std::vector<std::string> &words)
 {
   AssertThrow(words.size() == n_columns, dealii::ExcDimensionMismatch(words.size(), n_columns));
   pending += joined(words);
   ++row_count;
-  flush();
 }
 
 void

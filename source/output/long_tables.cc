@@ -1,4 +1,5 @@
 #include <scree/mechanics/resultant.h>
+#include <scree/output/column_names.h>
 #include <scree/output/long_tables.h>
 
 #include <tuple>
@@ -7,25 +8,6 @@ namespace scree
 {
 namespace
 {
-const std::vector<std::string> axes = {"x", "y", "z"};
-
-template <int dim>
-void
-add_vector_names(const std::string &prefix, std::vector<std::string> &names)
-{
-  for (unsigned int d = 0; d < dim; ++d)
-    names.push_back(prefix + "_" + axes[d]);
-}
-
-/** Names of a moment or a rotation. */
-template <int dim>
-void
-add_axial_names(const std::string &prefix, std::vector<std::string> &names)
-{
-  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
-    names.push_back(prefix + "_" + axes[d]);
-}
-
 template <int dim>
 void
 add_vector(const dealii::Tensor<1, dim> &vector, std::vector<std::string> &row)
@@ -94,8 +76,9 @@ LongTables<dim>::moment_about(const MeanMotion<dim>     &motion,
 template <int dim>
 void
 LongTables<dim>::add_contact(const double step, const double time, const ContactPair &pair,
-                             const ContactSummary<dim>          &summary,
-                             const std::vector<MeanMotion<dim>> &motions)
+                             const ContactSummary<dim>  &summary,
+                             const dealii::Tensor<1, 3> &moment_a,
+                             const dealii::Tensor<1, 3> &moment_b)
 {
   contact_rows.push_back({CsvTable::word(step), CsvTable::word(time), pair.name,
                           bodies[pair.a].name, bodies[pair.b].name});
@@ -107,8 +90,8 @@ LongTables<dim>::add_contact(const double step, const double time, const Contact
         summary.stick + summary.slip, summary.max_pressure, summary.open_points,
         summary.stick_points, summary.slip_points})
     row.push_back(CsvTable::word(value));
-  add_axial<dim>(-moment_about(motions[pair.a], summary), row);
-  add_axial<dim>(moment_about(motions[pair.b], summary), row);
+  add_axial<dim>(moment_a, row);
+  add_axial<dim>(moment_b, row);
 }
 
 template <int dim>
@@ -134,12 +117,14 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
         met.insert(unique_pair);
       if (met.count(unique_pair) == 0)
         continue;
-      add_contact(step, time, pairs[p], summary, motions);
+      const dealii::Tensor<1, 3> moment_a = -moment_about(motions[a], summary),
+                                 moment_b = moment_about(motions[b], summary);
+      add_contact(step, time, pairs[p], summary, moment_a, moment_b);
       pairs_of_rows.push_back(unique_pair);
       on_body[a].force -= summary.force;
       on_body[b].force += summary.force;
-      on_body[a].moment -= moment_about(motions[a], summary);
-      on_body[b].moment += moment_about(motions[b], summary);
+      on_body[a].moment += moment_a;
+      on_body[b].moment += moment_b;
       n_contacts[a] += is_closed;
       n_contacts[b] += is_closed;
     }
@@ -177,10 +162,9 @@ LongTables<dim>::write()
     body_table = std::make_unique<CsvTable>(directory + "/grains.csv", body_columns());
   if (!contact_table && has_pairs)
     contact_table = std::make_unique<CsvTable>(directory + "/contacts.csv", contact_columns());
-  for (const auto &row : contact_rows)
-    contact_table->add_row(row);
-  for (const auto &row : body_rows)
-    body_table->add_row(row);
+  if (contact_table)
+    contact_table->add_rows(contact_rows);
+  body_table->add_rows(body_rows);
 }
 
 template <int dim>

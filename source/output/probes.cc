@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/output/body_output.h>
+#include <scree/output/column_names.h>
 #include <scree/output/probes.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,8 +27,7 @@ template <int dim>
 std::vector<std::string>
 sample_columns()
 {
-  const std::vector<std::string> axes = {"x", "y", "z"};
-  std::vector<std::string>       names(axes.begin(), axes.begin() + dim);
+  std::vector<std::string> names(axes.begin(), axes.begin() + dim);
   for (unsigned int d = 0; d < dim; ++d)
     names.push_back("u_" + axes[d]);
   for (unsigned int i = 0; i < dim; ++i)

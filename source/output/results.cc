@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/log.h>
+#include <scree/output/column_names.h>
 #include <scree/output/results.h>
 #include <scree/output/vtu_files.h>
 
@@ -14,8 +15,6 @@ namespace scree
 {
 namespace
 {
-const std::vector<std::string> axes = {"x", "y", "z"};
-
 bool
 ends_with(const std::string &text, const std::string &end)
 {
@@ -27,10 +26,8 @@ template <int dim>
 void
 add_resultant_names(const std::string &prefix, std::vector<std::string> &names)
 {
-  for (unsigned int d = 0; d < dim; ++d)
-    names.push_back(prefix + ".force_" + axes[d]);
-  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
-    names.push_back(prefix + ".moment_" + axes[d]);
+  add_vector_names<dim>(prefix + ".force", names);
+  add_axial_names<dim>(prefix + ".moment", names);
 }
 
 /** Column names of where a rigid body is and what drives it. */
@@ -38,10 +35,8 @@ template <int dim>
 void
 add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
 {
-  for (unsigned int d = 0; d < dim; ++d)
-    names.push_back(prefix + ".displacement_" + axes[d]);
-  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
-    names.push_back(prefix + ".rotation_" + axes[d]);
+  add_vector_names<dim>(prefix + ".displacement", names);
+  add_axial_names<dim>(prefix + ".rotation", names);
   add_resultant_names<dim>(prefix, names);
 }
 
@@ -66,8 +61,7 @@ transfer_columns(const std::vector<ContactPair> &pairs)
 {
   std::vector<std::string> names;
   for (const ContactPair &pair : pairs)
-    for (unsigned int d = 0; d < dim; ++d)
-      names.push_back(pair.name + ".transfer_" + axes[d]);
+    add_vector_names<dim>(pair.name + ".transfer", names);
   return names;
 }
 
@@ -118,16 +112,25 @@ Results<dim>::set_discretization(const Fields<dim>        &new_fields,
 }
 
 template <int dim>
+const std::vector<ContactPair> &
+Results<dim>::pairs_with_columns(const ContactPoints<dim> &contact) const
+{
+  static const std::vector<ContactPair> none;
+  return pairs_change ? none : contact.pairs();
+}
+
+template <int dim>
 std::set<std::string>
 Results<dim>::left_out(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
 {
-  if (pairs_change || contact.pairs().size() <= most_pairs_in_history)
+  const auto &pairs = pairs_with_columns(contact);
+  if (pairs.size() <= most_pairs_in_history)
     return {};
-  const auto            names = pair_columns<dim>(contact.pairs());
+  const auto            names = pair_columns<dim>(pairs);
   std::set<std::string> result(names.begin(), names.end());
   if (!equilibrium.is_linear_but_for_contact())
     {
-      const auto transfers = transfer_columns<dim>(contact.pairs());
+      const auto transfers = transfer_columns<dim>(pairs);
       result.insert(transfers.begin(), transfers.end());
     }
   return result;
@@ -140,8 +143,7 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
 {
   std::vector<std::string> names
     = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
-  const auto of_pairs
-    = pairs_change ? std::vector<std::string>() : pair_columns<dim>(contact.pairs());
+  const auto of_pairs = pair_columns<dim>(pairs_with_columns(contact));
   names.insert(names.end(), of_pairs.begin(), of_pairs.end());
   for (const std::string &condition : equilibrium.condition_names())
     add_resultant_names<dim>(condition, names);
@@ -161,8 +163,7 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
     if (!body.is_rigid())
       for (const std::string column : {"volume", "point_volume", "mass", "points"})
         names.push_back(body.name + "." + column);
-  const auto transfers
-    = pairs_change ? std::vector<std::string>() : transfer_columns<dim>(contact.pairs());
+  const auto transfers = transfer_columns<dim>(pairs_with_columns(contact));
   names.insert(names.end(), transfers.begin(), transfers.end());
   names.push_back("islands");
   names.push_back("widened_transfers");
@@ -238,8 +239,9 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
-  for (const auto &summary : pairs_change ? decltype(summaries)() : summaries)
+  for (unsigned int p = 0; p < pairs_with_columns(contact).size(); ++p)
     {
+      const auto &summary = summaries[p];
       add_resultant<dim>(summary.force, summary.moment, values);
       for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
                                  summary.stick, summary.slip})
@@ -322,8 +324,7 @@ Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, cons
         CsvTable table(directory + "/line_" + probe.name + "_"
                          + dealii::Utilities::int_to_string(record.step, 4) + ".csv",
                        sample_columns<dim>());
-        for (const auto &row : rows)
-          table.add_row(row);
+        table.add_rows(rows);
         is_written &= table.flush();
       }
   return is_written;

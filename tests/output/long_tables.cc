@@ -6,12 +6,9 @@
 #include <scree/output/long_tables.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "../mechanics/equilibrium_model.h"
+#include "files.h"
 
 namespace
 {
@@ -130,15 +127,6 @@ TEST(RotationVector, OfRotationTimesStretch)
     }
 }
 
-std::string
-content(const std::string &file_name)
-{
-  std::ifstream      file(file_name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 /** A step of two bodies that touch at (1, 0) or not; body b has moved to (2, 0). */
 void
 write_step(LongTables<2> &tables, const double step, const bool is_closed)
@@ -160,8 +148,8 @@ write_step(LongTables<2> &tables, const double step, const bool is_closed)
 
 TEST(LongTables, RowsOfWhatIsOrWasClosedAlsoAfterAResume)
 {
-  char                name[]    = "/tmp/scree_tables_XXXXXX";
-  const std::string   directory = mkdtemp(name);
+  const Directory     own;
+  const std::string  &directory = own.path;
   EquilibriumModel<2> model(
     grid_text("-1, -1", "1, 1", "4, 4", 1) + degree_text(1)
     + bodies_text({{"a", ball_text("-0.5, 0", 0.4)}, {"b", ball_text("0.5, 0", 0.4)}}));
@@ -192,7 +180,6 @@ TEST(LongTables, RowsOfWhatIsOrWasClosedAlsoAfterAResume)
   }
   EXPECT_EQ(content(directory + "/contacts.csv"), contacts);
   EXPECT_EQ(content(directory + "/grains.csv"), grains);
-  std::filesystem::remove_all(directory);
 }
 } // namespace
 } // namespace scree

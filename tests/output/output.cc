@@ -9,43 +9,18 @@
 
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
 
 #include "../mechanics/equilibrium_model.h"
+#include "files.h"
 
 namespace scree
 {
 namespace
 {
 using namespace dealii;
-
-/** A directory of its own that goes away. */
-struct Directory
-{
-  Directory()
-  {
-    char name[] = "/tmp/scree_output_XXXXXX";
-    path        = mkdtemp(name);
-  }
-  ~Directory()
-  {
-    std::filesystem::remove_all(path);
-  }
-  std::string path;
-};
-
-std::string
-content(const std::string &file_name)
-{
-  std::ifstream      file(file_name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 TEST(CsvTable, RowsAreWrittenAtOnce)
 {

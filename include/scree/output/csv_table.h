@@ -7,8 +7,8 @@
 namespace scree
 {
 /**
- * A CSV file with a fixed header that grows by rows; every row is written at once. What a full disk
- * refuses is kept and tried again with the next row.
+ * A CSV file with a fixed header that grows by rows, which are written when they come. What a full
+ * disk refuses is kept and tried again with the next row.
  */
 class CsvTable
 {
@@ -30,8 +30,9 @@ public:
   /** Appends a row with as many values as there are columns, as word() has them. */
   void add_row(const std::vector<double> &values);
 
-  /** The same of numbers and names. */
-  void add_row(const std::vector<std::string> &words);
+  /** Appends rows of numbers, or of words, which are written together. */
+  template <typename T>
+  void add_rows(const std::vector<std::vector<T>> &rows);
 
   /** A number with 12 significant digits. */
   static std::string word(const double value);
@@ -50,6 +51,8 @@ public:
 
 private:
   void require_in_place() const;
+  void append(const std::vector<double> &values);
+  void append(const std::vector<std::string> &words);
 
   std::string file_name;
   int         file; //!< descriptor

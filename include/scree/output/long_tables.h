@@ -70,7 +70,8 @@ private:
   dealii::Tensor<1, 3> moment_about(const MeanMotion<dim>     &motion,
                                     const ContactSummary<dim> &summary) const;
   void                 add_contact(const double step, const double time, const ContactPair &pair,
-                                   const ContactSummary<dim> &summary, const std::vector<MeanMotion<dim>> &motions);
+                                   const ContactSummary<dim> &summary, const dealii::Tensor<1, 3> &moment_a,
+                                   const dealii::Tensor<1, 3> &moment_b);
 
   std::string                                        directory;
   const std::vector<Body<dim>>                      &bodies;

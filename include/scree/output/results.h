@@ -133,7 +133,9 @@ private:
                                                 const Vector               &ghosted_u) const;
   std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
                                                    const ContactPoints<dim> &contact) const;
-  /** Those of pairs, if history.csv has none of them. */
+  /** The pairs that are the same in all steps. */
+  const std::vector<ContactPair> &pairs_with_columns(const ContactPoints<dim> &contact) const;
+  /** The columns of pairs, if history.csv has none of them. */
   std::set<std::string>    left_out(const Equilibrium<dim>   &equilibrium,
                                     const ContactPoints<dim> &contact) const;
   std::vector<std::string> probe_columns() const;

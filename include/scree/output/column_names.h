@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace scree
+{
+inline const std::vector<std::string> axes = {"x", "y", "z"};
+
+/** Names of the components of a vector: prefix_x, prefix_y and in 3D prefix_z. */
+template <int dim>
+void
+add_vector_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    names.push_back(prefix + "_" + axes[d]);
+}
+
+/** Names of the components of a moment or a rotation; 2D: only prefix_z. */
+template <int dim>
+void
+add_axial_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+    names.push_back(prefix + "_" + axes[d]);
+}
+} // namespace scree
