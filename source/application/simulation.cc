@@ -219,7 +219,9 @@ Simulation<dim>::run()
   if (!step_control.finished())
     require_prescribable();
   dealii::Timer wall;
-  unsigned int  attempts = 1;
+  unsigned int  attempts   = 1;
+  bool          has_turned = false; // to the other kind of attempt, in this step
+  bool          has_slid   = step_control.n_accepted() > 0;
   resolve_overlap();
   if (step_control.n_accepted() == 0)
     settle();
@@ -227,9 +229,10 @@ Simulation<dim>::run()
     {
       if (solve_step(step_control.next_time()))
         {
-          record.attempts   = attempts;
-          attempts          = 1;
-          is_second_attempt = false;
+          record.attempts = attempts;
+          attempts        = 1;
+          has_turned      = false;
+          has_slid        = true;
           step_control.accept(record.newton_iterations);
           write_results();
           report_step(wall.wall_time());
@@ -245,13 +248,17 @@ Simulation<dim>::run()
       if (!is_too_large)
         {
           require_equilibrium_exists();
-          if (!is_second_attempt && is_moving() && !equilibrium->free_bodies().empty())
+          if (!has_turned && !equilibrium->free_bodies().empty())
             {
-              // A second time, after a fall, see Equilibrium::set_second_attempt().
+              // The other way, after a fall, see Equilibrium::set_second_attempt().
               settle();
-              is_second_attempt = true;
+              is_second_attempt = !is_second_attempt;
+              has_turned        = true;
               continue;
             }
+          is_second_attempt = has_turned;
+          if (has_turned && !std::exchange(has_slid, true) && close_without_friction())
+            continue;
         }
       require(step_control.reject(), "Time",
               "the load step to time " + short_number(record.time)

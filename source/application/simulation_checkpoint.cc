@@ -117,11 +117,12 @@ Checkpoint<dim>
 Simulation<dim>::collect() const
 {
   Checkpoint<dim> result;
-  result.program      = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
-  result.parameters   = parameters.resolved;
-  result.steps        = step_control.record();
-  result.results      = results->record();
-  result.warned_pairs = warned_pairs;
+  result.program           = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
+  result.parameters        = parameters.resolved;
+  result.steps             = step_control.record();
+  result.results           = results->record();
+  result.warned_pairs      = warned_pairs;
+  result.is_second_attempt = is_second_attempt;
   if (is_moving())
     {
       std::vector<double> points;
@@ -204,6 +205,7 @@ Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
   step_control.resume(checkpoint.steps);
   state.time          = step_control.time();
   warned_pairs        = checkpoint.warned_pairs;
+  is_second_attempt   = checkpoint.is_second_attempt;
   fraction_at_restart = state.time / parameters.time.end_time;
   if (is_moving())
     resume_moving(checkpoint.moving);

@@ -189,6 +189,9 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     contact->set_touching_holds(false);
     equilibrium->shorten(du, grid->finest_size());
   };
+  hooks.is_geometric = [&](const Vector &r, const double tolerance) {
+    return equilibrium->is_geometric(r, tolerance);
+  };
   hooks.reference = [&]() {
     return std::max(equilibrium->force_scale(),
                     equilibrium->round_off() / parameters.newton.relative_tolerance);
@@ -295,124 +298,6 @@ Simulation<dim>::slide() const
 }
 
 template <int dim>
-std::optional<double>
-Simulation<dim>::resolve_part(const std::vector<double> &overlaps, const double left)
-{
-  record       = StepRecord();
-  auto u       = state.displacement;
-  auto allowed = overlaps;
-  for (double &overlap : allowed)
-    overlap *= left;
-  contact->resolve_overlap(allowed);
-  equilibrium->set_unloaded(u);
-  const NewtonResult result = solve_equilibrium(u);
-  record.newton_iterations  = result.iterations;
-  bool is_solved            = result.converged();
-  if (is_solved && is_moving())
-    {
-      points_at_end = moved_points(u);
-      is_solved     = why_too_large().empty();
-    }
-  double largest_motion = 0.;
-  if (is_solved)
-    {
-      const auto motions = equilibrium->largest_displacements(u);
-      largest_motion     = *std::max_element(motions.begin(), motions.end());
-      equilibrium->accept(u, state.contact);
-      equilibrium->count_overlap();
-      state.displacement = u;
-      state.contact      = contact->current_history();
-      geometry_has_moved = true;
-      if (is_moving())
-        move_geometry();
-    }
-  contact->resolve_overlap({});
-  return is_solved ? std::make_optional(largest_motion) : std::nullopt;
-}
-
-template <int dim>
-void
-Simulation<dim>::resolve_overlap()
-{
-  constexpr double       negligible = 1e-6; // cells
-  constexpr double       first_drag = 0.1, largest_drag = 10.;
-  constexpr double       at_rest   = 0.05; // cells
-  constexpr unsigned int max_moves = 10;   // of a part
-  const auto             overlaps  = contact->overlaps(communicator);
-  const double           largest
-    = overlaps.empty() ? 0. : *std::max_element(overlaps.begin(), overlaps.end());
-  auto u = state.displacement;
-  if (has_started() || largest < negligible * grid->finest_size() || !equilibrium->set_unloaded(u))
-    return;
-  TimeParameters parts;
-  parts.minimum_step_fraction = 1. / 1024;
-  StepControl  control(parts);
-  unsigned int n_iterations = 0, n_parts = 0, n_moves = 0; // moves of the present part
-  bool         goes_on = true;
-  double       drag    = 0.;
-  while (goes_on && !control.finished())
-    {
-      const auto motion = resolve_part(overlaps, 1. - control.next_time());
-      n_iterations += record.newton_iterations;
-      if (motion)
-        {
-          ++n_parts;
-          if (drag == 0. || *motion < at_rest * grid->finest_size() || ++n_moves >= max_moves)
-            {
-              n_moves = 0;
-              control.accept(record.newton_iterations);
-            }
-        }
-      else if (is_moving() && drag < largest_drag && !equilibrium->free_bodies().empty())
-        drag = std::max(first_drag, 10. * drag);
-      else
-        goes_on = control.reject();
-      equilibrium->set_drag(drag);
-    }
-  equilibrium->set_drag(0.);
-  if (goes_on)
-    log.line("Overlap at the start is resolved without friction in " + std::to_string(n_parts)
-             + " part(s) and " + std::to_string(n_iterations) + " iterations");
-  else
-    log.line("Warning: the overlap at the start is resolved without friction only to "
-             + short_number(100. * control.time())
-             + "%; the first step resolves the rest, with friction");
-}
-
-template <int dim>
-void
-Simulation<dim>::settle()
-{
-  constexpr unsigned int max_moves  = 200;
-  constexpr double       negligible = 1e-3;
-  if (!is_moving() || equilibrium->free_bodies().empty())
-    return;
-  unsigned int n_moves = 0;
-  for (; n_moves < max_moves; ++n_moves)
-    {
-      auto u = state.displacement, r = u, unused = u;
-      equilibrium->set_time(step_control.next_time(), unused);
-      equilibrium->residual(u, state.contact, r);
-      const auto work = equilibrium->balance_rigid_motions(u, state.contact, true);
-      equilibrium->set_time(state.time, unused);
-      if (!work || *work < negligible)
-        break;
-      equilibrium->residual(u, state.contact, r);
-      points_at_end     = moved_points(u);
-      const double lack = equilibrium->energies().balance_error();
-      equilibrium->accept(u, state.contact);
-      equilibrium->count_as_transfer(lack);
-      state.displacement = u;
-      state.contact      = contact->current_history();
-      geometry_has_moved = true;
-      move_geometry();
-    }
-  if (n_moves > 0)
-    log.line("  bodies that nothing holds fall until contact does, in " + std::to_string(n_moves)
-             + " move(s)");
-}
-
-template <int dim>
 double
 Simulation<dim>::unbalanced_part(const double time, typename FreeBodies<dim>::Coordinates &motion)
 {
@@ -451,13 +336,9 @@ Simulation<dim>::require_equilibrium_exists()
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template typename Equilibrium<dim>::Vector Simulation<dim>::extrapolated(const double) const;    \
   template typename Equilibrium<dim>::Vector Simulation<dim>::first_guess(const double);           \
-  template std::optional<double> Simulation<dim>::resolve_part(const std::vector<double> &,        \
-                                                               const double);                      \
-  template void                  Simulation<dim>::settle();                                        \
-  template void                  Simulation<dim>::resolve_overlap();                               \
-  template bool                  Simulation<dim>::solve_step(const double);                        \
-  template LinearSolveResult     Simulation<dim>::solve_linear_system(                             \
-        const LinearSolver::Vector &, const double, LinearSolver::Vector &);                       \
+  template bool                              Simulation<dim>::solve_step(const double);            \
+  template LinearSolveResult                 Simulation<dim>::solve_linear_system(                 \
+                    const LinearSolver::Vector &, const double, LinearSolver::Vector &);           \
   template std::optional<UserError> Simulation<dim>::slide() const;                                \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \

@@ -94,7 +94,7 @@ Equilibrium<dim>::hold_moments(Vector &r)
 {
   held_moments.assign(bodies.size(), 0.);
   are_moments_whole = false;
-  if (!turns_infinitesimally())
+  if (!is_second_attempt || free_bodies().empty())
     return;
   const auto [moments, factor] = free.misplaced_moments(free.resultants(r));
   if (moments.empty())
@@ -103,6 +103,21 @@ Equilibrium<dim>::hold_moments(Vector &r)
   are_moments_whole = factor == 1.;
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     held_moments[free_bodies()[i].body] = free.magnitude(moments, i);
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::is_geometric(const Vector &r, const double tolerance) const
+{
+  constexpr double accuracy = 1e-4;
+  if (free_bodies().empty())
+    return false;
+  const auto [moments, factor] = free.misplaced_moments(free.resultants(r), accuracy);
+  if (moments.empty() || factor < 1.)
+    return false;
+  Vector rest(r);
+  free.subtract(moments, artificial_mass, rest);
+  return rest.l2_norm() <= tolerance;
 }
 
 template <int dim>
@@ -155,19 +170,20 @@ Equilibrium<dim>::turn(Vector &u) const
   free.advance(du, artificial_mass, u);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                              \
-  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;   \
-  template void                  Equilibrium<dim>::set_artificial_mass(const double);       \
-  template void                  Equilibrium<dim>::set_second_attempt(const bool);          \
-  template void                  Equilibrium<dim>::set_drag(const double);                  \
-  template double                Equilibrium<dim>::held_moment(const unsigned int) const;   \
-  template bool                  Equilibrium<dim>::turns_infinitesimally() const;           \
-  template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const; \
-  template void                  Equilibrium<dim>::turn(Vector &) const;                    \
-  template double                Equilibrium<dim>::artificial_work(const Vector &) const;   \
-  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;            \
-  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                \
-  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                   \
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;      \
+  template void                  Equilibrium<dim>::set_artificial_mass(const double);          \
+  template void                  Equilibrium<dim>::set_second_attempt(const bool);             \
+  template void                  Equilibrium<dim>::set_drag(const double);                     \
+  template double                Equilibrium<dim>::held_moment(const unsigned int) const;      \
+  template bool                  Equilibrium<dim>::is_geometric(const Vector &, double) const; \
+  template bool                  Equilibrium<dim>::turns_infinitesimally() const;              \
+  template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const;    \
+  template void                  Equilibrium<dim>::turn(Vector &) const;                       \
+  template double                Equilibrium<dim>::artificial_work(const Vector &) const;      \
+  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;               \
+  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                   \
+  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                      \
     Vector &, const ContactHistory<dim> &, const bool) const;
 
 template const Equilibrium<2>::Vector &Equilibrium<2>::seen_by_bulk() const;

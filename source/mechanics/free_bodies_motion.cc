@@ -122,7 +122,7 @@ FreeBodies<dim>::contact_on_bodies() const
 
 template <int dim>
 typename FreeBodies<dim>::MisplacedMoments
-FreeBodies<dim>::misplaced_moments(const Coordinates &forces) const
+FreeBodies<dim>::misplaced_moments(const Coordinates &forces, const double share) const
 {
   constexpr double smallest_turn = 1e-2; // part of a motion
   const auto       product       = [](const Coordinates &a, const Coordinates &b) {
@@ -157,7 +157,7 @@ FreeBodies<dim>::misplaced_moments(const Coordinates &forces) const
   double                    scale          = 1.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     if (const double moment = magnitude(moments, i); moment > 0.)
-      scale = std::min(scale, tolerance(i) * contact_forces[i] / moment);
+      scale = std::min(scale, share * tolerance(i) * contact_forces[i] / moment);
   for (double &moment : moments)
     moment *= scale;
   return {moments, scale};
@@ -247,7 +247,7 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u, const bool infinitesi
 
 #define SCREE_INSTANTIATE(dim)                                                                   \
   template FreeBodies<dim>::MisplacedMoments FreeBodies<dim>::misplaced_moments(                 \
-    const std::vector<double> &) const;                                                          \
+    const std::vector<double> &, const double) const;                                            \
   template void FreeBodies<dim>::subtract(const std::vector<double> &, const Vector &, Vector &) \
     const;                                                                                       \
   template dealii::TrilinosWrappers::MPI::Vector FreeBodies<dim>::strained(                      \

@@ -68,14 +68,20 @@ forcing_term(const std::vector<double> &residuals, const double last, const doub
                     loosest);
 }
 
-/** Whether the residual ceased to fall at the level of round-off, see the class documentation. */
+/** Whether the residual did not fall to half in either of the last two iterations. */
 bool
-is_round_off_plateau(const std::vector<double> &residuals, const NewtonIteration &iteration,
-                     const double norm_of_u)
+is_plateau(const std::vector<double> &residuals)
 {
   const std::size_t n = residuals.size();
-  return n >= 3 && residuals[n - 1] <= round_off_factor * iteration.tolerance
-         && residuals[n - 1] > 0.5 * residuals[n - 2] && residuals[n - 2] > 0.5 * residuals[n - 3]
+  return n >= 3 && residuals[n - 1] > 0.5 * residuals[n - 2]
+         && residuals[n - 2] > 0.5 * residuals[n - 3];
+}
+
+/** Whether the residual ceased to fall at the level of round-off, see the class documentation. */
+bool
+is_round_off(const NewtonIteration &iteration, const double norm_of_u)
+{
+  return iteration.residual <= round_off_factor * iteration.tolerance
          && iteration.increment <= iteration.step_length * round_off_increment * norm_of_u;
 }
 
@@ -333,7 +339,9 @@ Newton::iterate(Vector &u, Progress &progress) const
           || iteration.residual > divergence_factor * std::max(result.residuals.front(), reference))
         return ended_as(NewtonStatus::diverged,
                         told("diverged in iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (is_round_off_plateau(result.residuals, iteration, u.l2_norm()))
+      if (is_plateau(result.residuals)
+          && (is_round_off(iteration, u.l2_norm())
+              || (hooks.is_geometric && hooks.is_geometric(r, iteration.tolerance))))
         return ended_as(NewtonStatus::converged_at_round_off,
                         told("ended at round-off in %u iterations, |r| = %.3e (tolerance %.3e)"));
       if (progress.is_transient

@@ -205,6 +205,27 @@ TEST(Newton, RoundOffPlateauIsAccepted)
   EXPECT_EQ(Newton(parameters, scalar(f, d)).solve(u).status, NewtonStatus::max_iterations);
 }
 
+TEST(Newton, WhatTheAccuracyOfTheGeometryLeavesIsAccepted)
+{
+  const auto    f      = [](double u) { return std::abs(u - 1) < 1e-6 ? 1e-6 : u - 1; };
+  Newton::Hooks hooks  = scalar(f, [](double) { return 1.; });
+  unsigned int  asked  = 0;
+  Vector        u      = vector({0.});
+  const auto    answer = [&](const bool is_geometric) {
+    hooks.is_geometric = [&asked, is_geometric](const Vector &, double) {
+      ++asked;
+      return is_geometric;
+    };
+    u = vector({0.});
+    return Newton(with(LineSearch::none), hooks).solve(u);
+  };
+  const NewtonResult accepted = answer(true);
+  EXPECT_EQ(accepted.status, NewtonStatus::converged_at_round_off) << accepted.message;
+  EXPECT_EQ(asked, 1u);
+  EXPECT_LE(accepted.iterations, 4u);
+  EXPECT_FALSE(answer(false).converged());
+}
+
 TEST(Newton, FailuresAreTold)
 {
   const auto one = [](double) { return 1.; };

@@ -91,13 +91,14 @@ struct Checkpoint
   StepControlRecord                               steps;
   ResultsRecord                                   results;
   std::set<std::pair<unsigned int, unsigned int>> warned_pairs;
+  bool                                            is_second_attempt = false;
   FixedState<dim>                                 fixed;
   MovingState<dim>                                moving;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &program &parameters &steps &results &warned_pairs &fixed &moving;
+    archive &program &parameters &steps &results &warned_pairs &is_second_attempt &fixed &moving;
   }
 
   /** Writes it into a directory (write_checkpoint_file()); by one process. Returns its bytes. */

@@ -147,27 +147,27 @@ private:
   void resume_moving(const MovingState<dim> &saved);
   void resume_fixed(const FixedState<dim> &saved);
   void report_set_up();
-  /**
-   * Of the old displacements, their extrapolation in time and, with rigid bodies, the linear
-   * prediction, the one with the smallest residual.
-   */
+  /** Of old displacements, their extrapolation and, with rigid bodies, the linear prediction, the
+   * one with the smallest residual. */
   typename Equilibrium<dim>::Vector first_guess(const double time);
   typename Equilibrium<dim>::Vector extrapolated(const double time) const;
   bool                              solve_step(const double time);
   /**
    * Before the first step bodies that overlap find their equilibrium without friction and loads, on
    * a moving geometry in parts, where that fails against a drag: friction begins with tau = 0, the
-   * energy of the overlap is external work. If something is prescribed at t = 0 already, or nothing
-   * helps, the first step resolves it.
+   * energy is external work. If something is prescribed at t = 0, or nothing helps, step 1 does it.
    */
   void resolve_overlap();
   /** One part, which leaves the overlaps times `left`: the largest motion [L]; empty: it failed. */
   std::optional<double> resolve_part(const std::vector<double> &overlaps, const double left);
-  /**
-   * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step, half
-   * a cell at a time, until contact holds them; the energy is that of transfer.
-   */
+  /** On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
+   * half a cell at a time, until contact holds them; the energy is that of transfer. */
   void settle();
+  /** Its loads close contact without friction before the first step; false: no, or motion is given.
+   */
+  bool close_without_friction();
+  /** Takes u, which the equilibrium accepted, as the state at the present time. */
+  void go_on_from(const typename Equilibrium<dim>::Vector &u);
   /** Whether the geometry has moved or a step was accepted. */
   bool has_started() const
   {
@@ -238,7 +238,7 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
-  bool is_second_attempt = false; //!< in the step being solved, which failed before
+  bool is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
   bool is_too_large      = false; //!< the solution of the step, for the moving geometry
   /** Told once; (b, b): at the box, (b, none): out of balance, (b, a), b > a: under-resolved. */
   std::set<std::pair<unsigned int, unsigned int>> warned_pairs;

@@ -62,7 +62,7 @@ public:
   /** The same for time 0 without loads, until the next call; false: something is prescribed. */
   bool set_unloaded(Vector &u);
 
-  /** Takes what the accepted state stores as external work: overlapping bodies were assembled. */
+  /** Takes what the accepted state stores as external work: bodies that overlap were assembled. */
   void count_overlap();
 
   /** Takes what the accepted state lacks in the balance of energies as transfer, but for `but`. */
@@ -95,7 +95,7 @@ public:
   void set_artificial_mass(const double factor);
   /** Free bodies move against `factor` times that mass times u less the accepted one. */
   void set_drag(const double factor);
-  /** du . M du with the artificial mass M (collective). */
+  /** du . M du (collective). */
   double artificial_work(const Vector &du) const;
   /** u += du, or FreeBodies::advance() where free bodies turn finitely (collective). */
   void advance(const Vector &du, Vector &u) const;
@@ -125,17 +125,18 @@ public:
   typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
   bool has_free_rigid_bodies() const;
-  /**
-   * How a step on a moving geometry is tried again: residual() leaves out
-   * FreeBodies::misplaced_moments(), and free bodies turn infinitesimally. Contact sees u, so that
-   * gaps are linear in rigid motions, the bulk FreeBodies::strained(u).
-   */
+  /** How a step is tried again: residual() leaves out FreeBodies::misplaced_moments(), free bodies
+   * turn infinitesimally on a moving geometry too: contact sees u, so that gaps are linear in rigid
+   * motions, the bulk FreeBodies::strained(u). */
   void set_second_attempt(const bool is_second);
   /** Then makes the rigid motions of u finite ones (collective). */
   void turn(Vector &u) const;
 
   /** Moment on a body that residual() left out, over half the size of the body [force]. */
   double held_moment(const unsigned int body) const;
+  /** Whether r, of the last residual(), is at most `tolerance` but for moments below the accuracy
+   * of geometry: 1e-4 of FreeBodies::misplaced_moments() (collective). */
+  bool is_geometric(const Vector &r, const double tolerance) const;
   /** Whether tangents change by contact alone. */
   bool                       is_linear_but_for_contact() const;
   const RigidBodies<dim>    &rigid_bodies() const;
@@ -150,8 +151,7 @@ public:
   /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
   std::vector<Resultant<dim>> resultants(const Vector &u) const;
 
-  /** What acts on each deformable body at `u`, that of the last residual(), added up (collective).
-   */
+  /** What acts on each deformable body at `u`, that of the last residual() (collective). */
   std::vector<BodyBalance<dim>> balance(const Vector &u) const;
 
   /** "body.condition", integrals first, then strong ones. */

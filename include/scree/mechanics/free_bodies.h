@@ -80,8 +80,10 @@ public:
    * resists by less than (h/2L)^2 of the trace, L half the size of the body. Contact points are
    * up to half a spacing beside where contact should act, so that M of a body is at most h/4 times
    * the sum of the contact forces on it; larger ones are scaled down together (collective).
+   *
+   * @param share of that bound
    */
-  MisplacedMoments misplaced_moments(const Coordinates &forces) const;
+  MisplacedMoments misplaced_moments(const Coordinates &forces, const double share = 1.) const;
 
   /** Length of what acts on a free body. */
   double magnitude(const Coordinates &forces, const unsigned int free_body) const;

@@ -104,7 +104,8 @@ struct NewtonResult
  * supplies the reference, a norm of forces at the present u. The size of du alone never ends the
  * iteration. A residual that round-off keeps above the tolerance is accepted
  * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
- * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2.
+ * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2; or if it did not fall
+ * and a hook says that only the accuracy of the geometry is left.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -168,6 +169,12 @@ public:
      * balance; false: it stays. May be empty.
      */
     std::function<bool(Vector &u)> balance;
+
+    /**
+     * Whether `r`, that of the last call of `residual`, which ceased to fall, is below the
+     * tolerance but for what the accuracy of the geometry leaves. May be empty.
+     */
+    std::function<bool(const Vector &r, double tolerance)> is_geometric;
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
     std::function<double()> reference;
