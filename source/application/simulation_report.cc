@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,6 +29,57 @@ resident_memory()
   dealii::Utilities::System::MemoryStats stats;
   dealii::Utilities::System::get_memory_stats(stats);
   return short_number(stats.VmRSS / 1024.) + " MB";
+}
+
+/** Bodies or pairs that are told one by one. */
+constexpr unsigned int most_told = 30;
+
+/** "a, b, c", the first of many with their number. */
+std::string
+listed(const std::vector<std::string> &names)
+{
+  std::string text;
+  for (unsigned int i = 0; i < names.size() && i < most_told; ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() <= most_told
+           ? text
+           : text + " and " + std::to_string(names.size() - most_told) + " more";
+}
+/** Tells the pairs and what overlaps, one by one unless they are many (collective). */
+template <int dim>
+void
+report_pairs(Log &log, const ContactPoints<dim> &contact, const bool has_many, const double h,
+             const MPI_Comm communicator)
+{
+  const auto   summaries = summarise_contact(contact, communicator);
+  unsigned int n_near = 0, n_overlaps = 0;
+  double       largest = 0.;
+  for (unsigned int p = 0; p < contact.pairs().size(); ++p)
+    {
+      const auto &pair     = contact.pairs()[p];
+      const bool  is_near  = !std::isnan(summaries[p].minimum_gap);
+      const bool  overlaps = summaries[p].minimum_gap < -1e-6 * h;
+      n_near += is_near;
+      n_overlaps += overlaps;
+      largest = std::max(largest, summaries[p].max_penetration);
+      if (has_many)
+        continue;
+      log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
+               + pair.law.name + "')"
+               + (is_near ? ", initial gap " + short_number(summaries[p].minimum_gap)
+                          : ", farther apart than twice the shift"));
+      if (overlaps)
+        log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
+                 + short_number(summaries[p].max_penetration));
+    }
+  if (!has_many)
+    return;
+  log.line("Contacts: " + std::to_string(n_near) + " pairs within twice the shift");
+  if (n_overlaps > 0)
+    log.line("Warning: the bodies of " + std::to_string(n_overlaps)
+             + " pairs overlap at the start, by up to " + short_number(largest));
+  log.line("Results of the pairs are in contacts.csv, not in history.csv: there are more than "
+           + std::to_string(Results<dim>::most_pairs_in_history));
 }
 } // namespace
 
@@ -45,6 +97,9 @@ Simulation<dim>::report_set_up()
            + std::to_string(parameters.degree) + " in " + std::to_string(fields->n_fields())
            + " field(s)");
   const auto volumes = bulk->volumes();
+  if (bodies.size() > most_told)
+    log.line("Bodies: " + std::to_string(bodies.size()) + ", volume "
+             + short_number(std::accumulate(volumes.begin(), volumes.end(), 0.)));
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       if (bodies[b].is_rigid())
@@ -53,7 +108,8 @@ Simulation<dim>::report_set_up()
                    + (bodies[b].rigid->is_free() ? "driven by forces" : "its motion prescribed"));
           continue;
         }
-      log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
+      if (bodies.size() <= most_told)
+        log.line("Body " + bodies[b].name + ": volume " + short_number(volumes[b]));
       require(volumes[b] > 0., bodies[b].path,
               "the body '" + bodies[b].name + "' has no volume on the grid",
               "raise Grid/Finest level or check the shape: the body must be wider than a few "
@@ -72,30 +128,18 @@ Simulation<dim>::report_set_up()
         log.line("Warning: body " + bodies[b].name + " is only "
                  + short_number(smallest / grid->finest_size()) + " finest cells wide");
     }
-  const auto n_points  = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  const auto summaries = summarise_contact(*contact, communicator);
-  const bool has_many  = pairs_change || pairs.size() > Results<dim>::most_pairs_in_history;
-  for (unsigned int p = 0; p < contact->pairs().size(); ++p)
-    {
-      const auto &pair = contact->pairs()[p];
-      if (has_many && std::isnan(summaries[p].minimum_gap))
-        continue;
-      log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
-               + pair.law.name + "')"
-               + (std::isnan(summaries[p].minimum_gap)
-                    ? ", farther apart than twice the shift"
-                    : ", initial gap " + short_number(summaries[p].minimum_gap)));
-      if (summaries[p].minimum_gap < -1e-6 * grid->finest_size())
-        log.line("Warning: the bodies of " + pair.name + " overlap at the start by "
-                 + short_number(summaries[p].max_penetration));
-    }
-  if (has_many)
-    log.line("Results of the pairs are in contacts.csv, not in history.csv: there are more than "
-             + std::to_string(Results<dim>::most_pairs_in_history));
+  const auto n_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
+  report_pairs(log, *contact, pairs_change || pairs.size() > Results<dim>::most_pairs_in_history,
+               grid->finest_size(), communicator);
   log.line("Contact points: " + std::to_string(n_points));
-  for (const auto &free : equilibrium->free_bodies())
-    log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
-             + " rigid motion(s) that only contact can hold");
+  const auto &free_bodies = equilibrium->free_bodies();
+  if (free_bodies.size() > most_told)
+    log.line("Bodies with rigid motions that only contact can hold: "
+             + std::to_string(free_bodies.size()));
+  else
+    for (const auto &free : free_bodies)
+      log.line("Body " + bodies[free.body].name + " has " + std::to_string(free.n_free)
+               + " rigid motion(s) that only contact can hold");
 }
 
 template <int dim>
@@ -162,13 +206,13 @@ template <int dim>
 void
 Simulation<dim>::report_under_resolved()
 {
-  std::string names;
+  std::vector<std::string> names;
   for (const unsigned int p : under_resolved_pairs(*contact, communicator))
     if (warned_pairs.insert({pairs[p].b, pairs[p].a}).second)
-      names += (names.empty() ? "" : ", ") + pairs[p].name;
+      names.push_back(pairs[p].name);
   if (!names.empty())
     log.line("Warning: under-resolved contact, closed at less than "
-             + std::to_string(dim == 2 ? 3 : 9) + " points: " + names
+             + std::to_string(dim == 2 ? 3 : 9) + " points: " + listed(names)
              + ". What loads press has the right force; gap, pressure and stiffness, and the force "
                "of what is moved, come from the grid; refine there (Grid/Refinement = contact, "
                "Finest level)");
@@ -239,13 +283,13 @@ Simulation<dim>::tell_what_is_loose()
 {
   if (told_as_loose.size() == equilibrium->free_bodies().size())
     return;
-  std::string names;
+  std::vector<std::string> names;
   for (const unsigned int body : equilibrium->free_motions().not_held())
     if (told_as_loose.insert(body).second)
-      names += (names.empty() ? "" : ", ") + bodies[body].name;
+      names.push_back(bodies[body].name);
   if (!names.empty())
     log.line("Note: at time " + short_number(record.time)
-             + " neither supports nor closed contact resist some rigid motion of " + names
+             + " neither supports nor closed contact resist some rigid motion of " + listed(names)
              + "; no load drives it, and where it ends there is arbitrary");
 }
 

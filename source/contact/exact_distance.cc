@@ -72,6 +72,14 @@ ExactDistances<dim>::foot_and_normal(const unsigned int body, const dealii::Poin
 }
 
 template <int dim>
+std::pair<double, dealii::Tensor<1, dim>>
+ExactDistances<dim>::value_and_normal(const unsigned int body, const dealii::Point<dim> &x) const
+{
+  const BoundaryFoot<dim> foot = foot_and_normal(body, x);
+  return {foot.distance, foot.normal};
+}
+
+template <int dim>
 dealii::Tensor<1, dim>
 ExactDistances<dim>::normal(const unsigned int body, const dealii::Point<dim> &x) const
 {

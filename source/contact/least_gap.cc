@@ -64,7 +64,7 @@ std::pair<double, dealii::Tensor<1, dim>>
 LeastGap<dim>::distance(const unsigned int body, const dealii::Point<dim> &x) const
 {
   if (distances.is_known(body, x))
-    return {distances.value(body, x), distances.normal(body, x)};
+    return distances.value_and_normal(body, x);
   return bodies[body].level_set.value_and_gradient(x, 3);
 }
 

@@ -1,5 +1,8 @@
 #include <scree/level_set/pieces.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace scree
 {
 template <int dim>
@@ -44,6 +47,42 @@ negative_pieces(const Lattice<dim> &lattice)
   return result;
 }
 
+template <int dim>
+unsigned int
+remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
+               const std::vector<char> &known, const NodalVectors<dim> &du)
+{
+  const Pieces pieces = negative_pieces(lattice);
+  if (pieces.n <= 1)
+    return 0;
+  std::vector<char> has_material(pieces.n + 1, 0);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    {
+      if (!known[i] || old[i] >= 0.)
+        continue;
+      typename Lattice<dim>::Index below = lattice.index(i);
+      for (unsigned int d = 0; d < dim; ++d)
+        below[d] += static_cast<int>(std::floor(du[d][i] / lattice.spacing()));
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          typename Lattice<dim>::Index node = below;
+          for (unsigned int d = 0; d < dim; ++d)
+            node[d] += corner >> d & 1u;
+          if (lattice.contains(node))
+            has_material[pieces.of_node[lattice.offset(node)]] = 1;
+        }
+    }
+  for (std::size_t i = 0; i < pieces.of_node.size(); ++i)
+    if (pieces.of_node[i] > 0 && !has_material[pieces.of_node[i]])
+      lattice.values()[i] = 0.5 * lattice.spacing();
+  return std::count(has_material.begin() + 1, has_material.end(), 0);
+}
+
 template Pieces negative_pieces(const Lattice<2> &);
 template Pieces negative_pieces(const Lattice<3> &);
+
+template unsigned int remove_islands<2>(Lattice<2> &, const std::vector<double> &,
+                                        const std::vector<char> &, const NodalVectors<2> &);
+template unsigned int remove_islands<3>(Lattice<3> &, const std::vector<double> &,
+                                        const std::vector<char> &, const NodalVectors<3> &);
 } // namespace scree

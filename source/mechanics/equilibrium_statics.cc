@@ -12,13 +12,20 @@ template <int dim>
 void
 Equilibrium<dim>::shorten(Vector &du, const double length) const
 {
-  const std::vector<unsigned int> loose   = free.not_held();
-  double                          largest = 0.;
-  for (unsigned int i = 0; i < free_bodies().size() && !loose.empty(); ++i)
-    if (std::find(loose.begin(), loose.end(), free_bodies()[i].body) != loose.end())
-      for (const DofIndex unknown : free.unknowns(i))
-        largest = std::max(largest, std::abs(du(unknown)));
-  largest = dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+  const auto largest_among = [&](const auto &is_meant) {
+    double largest = 0.;
+    for (unsigned int i = 0; i < free_bodies().size(); ++i)
+      if (is_meant(free_bodies()[i].body))
+        for (const DofIndex unknown : free.unknowns(i))
+          largest = std::max(largest, std::abs(du(unknown)));
+    return dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+  };
+  // What is not held is sought only if it matters.
+  if (largest_among([](const unsigned int) { return true; }) <= length)
+    return;
+  const std::vector<unsigned int> loose   = free.not_held(); // ascending
+  const double                    largest = largest_among(
+    [&](const unsigned int body) { return std::binary_search(loose.begin(), loose.end(), body); });
   if (largest > length)
     du *= length / largest;
 }

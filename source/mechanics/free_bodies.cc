@@ -1,15 +1,18 @@
 #include <scree/base/joint_sum.h>
 #include <scree/base/log.h>
 #include <scree/mechanics/free_bodies.h>
+#include <scree/solver/null_space.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace scree
 {
@@ -17,30 +20,7 @@ namespace
 {
 using DenseMatrix = dealii::FullMatrix<double>;
 
-/** Columns: the null space of a symmetric positive semi-definite matrix, what is below a part of
- * its trace. */
-DenseMatrix
-null_space(const DenseMatrix &matrix, const double negligible = 1e-6)
-{
-  const unsigned int               n = matrix.m();
-  dealii::LAPACKFullMatrix<double> copy(n, n);
-  double                           trace = 0.;
-  for (unsigned int i = 0; i < n; ++i)
-    trace += matrix(i, i);
-  if (trace == 0.)
-    return dealii::IdentityMatrix(n);
-  // Singular values are the eigenvalues; the largest come first.
-  copy = matrix;
-  copy.compute_svd();
-  unsigned int n_held = 0;
-  while (n_held < n && copy.singular_value(n_held) > negligible * trace)
-    ++n_held;
-  DenseMatrix vectors(n, n - n_held);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = n_held; j < n; ++j)
-      vectors(i, j - n_held) = copy.get_svd_vt()(j, i);
-  return vectors;
-}
+constexpr double negligible = 1e-6; // part of what resists
 
 /** Sums the entries of all matrices over all processes at once. */
 void
@@ -75,7 +55,9 @@ FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<di
   const auto held = resistance_of_supports(motions);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const DenseMatrix basis = null_space(held[b]);
+      const double      trace = held[b].trace();
+      const DenseMatrix basis = trace == 0. ? DenseMatrix(dealii::IdentityMatrix(held[b].m()))
+                                            : null_space(held[b], negligible * trace);
       if (basis.n() == 0)
         continue;
       number_of[b] = free_motions.size();
@@ -211,34 +193,26 @@ FreeBodies<dim>::motion(const unsigned int i, const unsigned int k,
 
 template <int dim>
 void
-FreeBodies<dim>::append_column(const ContactPoint<dim>      &point,
-                               const dealii::Tensor<1, dim> &direction, Coordinates &columns) const
+FreeBodies<dim>::find_column(const ContactPoint<dim>      &point,
+                             const dealii::Tensor<1, dim> &direction, Coordinates &column) const
 {
-  const ContactPair &pair  = contact.pairs()[point.pair];
-  const std::size_t  begin = columns.size();
-  columns.resize(begin + n_coordinates, 0.);
+  const ContactPair &pair = contact.pairs()[point.pair];
+  column.clear();
   for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
-    {
-      const unsigned int i = number_of[body];
-      if (i == none)
-        continue;
+    if (const unsigned int i = number_of[body]; i != none)
       for (unsigned int k = 0; k < bases[i].n(); ++k)
-        columns[begin + first[i] + k] += sign * (motion(i, k, point.position) * direction);
-    }
+        column.push_back(sign * (motion(i, k, point.position) * direction));
 }
 
 template <int dim>
-std::vector<typename FreeBodies<dim>::Coordinates>
-FreeBodies<dim>::not_resisted(const double negligible) const
+std::vector<DenseMatrix>
+FreeBodies<dim>::resistance_of_contact() const
 {
-  if (n_coordinates == 0)
-    return {};
-  // A matrix per pair over the motions of its two bodies, so that pairs of many points do not
-  // drown others.
   std::vector<DenseMatrix> of_pair;
   for (const auto &coordinates : coordinates_of_pair)
     of_pair.emplace_back(coordinates.size(), coordinates.size());
-  Coordinates column;
+  std::vector<dealii::Tensor<1, dim>> directions;
+  Coordinates                         column;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       const auto &point    = contact.points()[i];
@@ -246,36 +220,107 @@ FreeBodies<dim>::not_resisted(const double negligible) const
       const auto &law      = contact.pairs()[point.pair].law;
       if (response.pressure == 0. && law.law != ContactLaw::tied)
         continue;
-      std::vector<dealii::Tensor<1, dim>> directions = {point.normal};
+      directions.assign(1, point.normal);
       if (response.status == ContactStatus::stick && law.law != ContactLaw::frictionless)
         for (const auto &tangent : tangents_of<dim>(point.normal))
           directions.push_back(tangent);
-      const auto &c = coordinates_of_pair[point.pair];
       for (const auto &direction : directions)
         {
-          column.clear();
-          append_column(point, direction, column);
-          for (unsigned int k = 0; k < c.size(); ++k)
-            for (unsigned int l = 0; l < c.size(); ++l)
-              of_pair[point.pair](k, l) += column[c[k]] * column[c[l]];
+          find_column(point, direction, column);
+          for (unsigned int k = 0; k < column.size(); ++k)
+            for (unsigned int l = 0; l < column.size(); ++l)
+              of_pair[point.pair](k, l) += column[k] * column[l];
         }
     }
   sum_over_processes(of_pair, communicator);
-  DenseMatrix all(n_coordinates, n_coordinates);
-  for (unsigned int p = 0; p < of_pair.size(); ++p)
+  for (DenseMatrix &matrix : of_pair)
+    if (const double trace = matrix.m() == 0 ? 0. : matrix.trace(); trace > 0.)
+      matrix /= trace;
+    else
+      matrix.reinit(0, 0);
+  return of_pair;
+}
+
+/** What acts together. */
+template <int dim>
+struct FreeBodies<dim>::Group
+{
+  std::vector<unsigned int> coordinates;
+  std::vector<unsigned int> pairs;          //!< the closed ones
+  unsigned int              most_pairs = 0; //!< of them on a body
+};
+
+template <int dim>
+std::vector<typename FreeBodies<dim>::Group>
+FreeBodies<dim>::groups(const std::vector<DenseMatrix> &of_pairs) const
+{
+  const unsigned int        n = free_motions.size();
+  std::vector<unsigned int> rank(n), parent(n), n_pairs(n, 0), number(n, none);
+  boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(), parent.data());
+  for (unsigned int i = 0; i < n; ++i)
+    sets.make_set(i);
+  const auto for_each_closed = [&](const auto &act) {
+    for (unsigned int p = 0; p < of_pairs.size(); ++p)
+      if (!of_pairs[p].empty())
+        act(p, number_of[contact.pairs()[p].a], number_of[contact.pairs()[p].b]);
+  };
+  for_each_closed([&](const unsigned int, const unsigned int a, const unsigned int b) {
+    if (a != none && b != none)
+      sets.union_set(a, b);
+    for (const unsigned int i : {a, b})
+      if (i != none)
+        ++n_pairs[i];
+  });
+  std::vector<Group> result;
+  for (unsigned int i = 0; i < n; ++i)
     {
-      const double trace = of_pair[p].m() == 0 ? 0. : of_pair[p].trace();
-      for (unsigned int k = 0; trace > 0. && k < of_pair[p].m(); ++k)
-        for (unsigned int l = 0; l < of_pair[p].m(); ++l)
-          all(coordinates_of_pair[p][k], coordinates_of_pair[p][l]) += of_pair[p](k, l) / trace;
+      unsigned int &place = number[sets.find_set(i)];
+      if (place == none)
+        {
+          place = result.size();
+          result.emplace_back();
+        }
+      for (unsigned int k = first[i]; k < first[i] + bases[i].n(); ++k)
+        result[place].coordinates.push_back(k);
+      result[place].most_pairs = std::max(result[place].most_pairs, n_pairs[i]);
     }
-  const DenseMatrix        vectors = null_space(all, negligible);
-  std::vector<Coordinates> result;
-  for (unsigned int j = 0; j < vectors.n(); ++j)
+  for_each_closed([&](const unsigned int p, const unsigned int a, const unsigned int b) {
+    result[number[sets.find_set(a == none ? b : a)]].pairs.push_back(p);
+  });
+  return result;
+}
+
+template <int dim>
+std::vector<typename FreeBodies<dim>::JointMotions>
+FreeBodies<dim>::not_resisted(const double negligible_part) const
+{
+  const auto                of_pairs = resistance_of_contact();
+  std::vector<unsigned int> row(n_coordinates);
+  std::vector<JointMotions> result;
+  for (const Group &group : groups(of_pairs))
     {
-      result.emplace_back(n_coordinates);
-      for (unsigned int i = 0; i < n_coordinates; ++i)
-        result.back()[i] = vectors(i, j);
+      const unsigned int n = group.coordinates.size();
+      for (unsigned int k = 0; k < n; ++k)
+        row[group.coordinates[k]] = k;
+      std::vector<std::vector<unsigned int>> rows;
+      dealii::DynamicSparsityPattern         entries(n, n);
+      for (unsigned int k = 0; k < n; ++k)
+        entries.add(k, k);
+      for (const unsigned int p : group.pairs)
+        {
+          rows.emplace_back();
+          for (const unsigned int coordinate : coordinates_of_pair[p])
+            rows.back().push_back(row[coordinate]);
+          for (const unsigned int k : rows.back())
+            entries.add_entries(k, rows.back().begin(), rows.back().end());
+        }
+      dealii::SparsityPattern pattern;
+      pattern.copy_from(entries);
+      dealii::SparseMatrix<double> resistance(pattern);
+      for (unsigned int i = 0; i < group.pairs.size(); ++i)
+        resistance.add(rows[i], of_pairs[group.pairs[i]]);
+      result.push_back(
+        {group.coordinates, null_space(resistance, negligible_part * group.most_pairs)});
     }
   return result;
 }
@@ -284,18 +329,17 @@ template <int dim>
 std::vector<unsigned int>
 FreeBodies<dim>::not_held() const
 {
-  constexpr double          takes_part = 1e-3;
-  const auto                null       = not_resisted();
+  constexpr double takes_part = 1e-3;
+  Coordinates      parts(n_coordinates, 0.);
+  for (const auto &[coordinates, vectors] : not_resisted(negligible))
+    for (unsigned int k = 0; k < coordinates.size(); ++k)
+      for (unsigned int j = 0; j < vectors.n(); ++j)
+        parts[coordinates[k]] += vectors(k, j) * vectors(k, j);
   std::vector<unsigned int> result;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
-    {
-      double part = 0.;
-      for (const Coordinates &motion : null)
-        for (unsigned int k = 0; k < bases[i].n(); ++k)
-          part += std::pow(motion[first[i] + k], 2);
-      if (part > takes_part)
-        result.push_back(free_motions[i].body);
-    }
+    if (std::accumulate(parts.begin() + first[i], parts.begin() + first[i] + bases[i].n(), 0.)
+        > takes_part)
+      result.push_back(free_motions[i].body);
   return result;
 }
 

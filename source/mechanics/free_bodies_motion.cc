@@ -121,38 +121,56 @@ FreeBodies<dim>::contact_on_bodies() const
 }
 
 template <int dim>
+void
+FreeBodies<dim>::add_moments(const JointMotions &motions, const Coordinates &forces,
+                             Coordinates &moments) const
+{
+  constexpr double   smallest_turn = 1e-2; // part of a motion
+  const auto        &coordinates   = motions.coordinates;
+  const unsigned int n             = motions.vectors.n();
+  if (n == 0)
+    return;
+  // M = P Z (Z^T P Z)^+ Z^T F
+  dealii::FullMatrix<double>       turns(coordinates.size(), n), products(n, n);
+  dealii::LAPACKFullMatrix<double> matrix(n, n);
+  dealii::Vector<double>           part(n), factors(n);
+  for (unsigned int j = 0; j < n; ++j)
+    {
+      Coordinates motion(n_coordinates, 0.);
+      for (unsigned int k = 0; k < coordinates.size(); ++k)
+        {
+          motion[coordinates[k]] = motions.vectors(k, j);
+          part[j] += motions.vectors(k, j) * forces[coordinates[k]];
+        }
+      motion = rotations(motion);
+      for (unsigned int k = 0; k < coordinates.size(); ++k)
+        turns(k, j) = motion[coordinates[k]];
+    }
+  motions.vectors.Tmmult(products, turns);
+  matrix = products;
+  matrix.compute_svd();
+  moments.resize(n_coordinates, 0.);
+  if (matrix.singular_value(0) <= smallest_turn)
+    return;
+  matrix.compute_inverse_svd(smallest_turn / matrix.singular_value(0));
+  matrix.vmult(factors, part);
+  for (unsigned int k = 0; k < coordinates.size(); ++k)
+    for (unsigned int j = 0; j < n; ++j)
+      moments[coordinates[k]] += turns(k, j) * factors[j];
+}
+
+template <int dim>
 typename FreeBodies<dim>::MisplacedMoments
 FreeBodies<dim>::misplaced_moments(const Coordinates &forces, const double share) const
 {
-  constexpr double smallest_turn = 1e-2; // part of a motion
-  const auto       product       = [](const Coordinates &a, const Coordinates &b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
-  };
   double coarsest = 0.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     coarsest = std::max(coarsest, tolerance(i));
-  const auto         motions = not_resisted(4. * coarsest * coarsest);
-  const unsigned int n       = motions.size();
-  if (n == 0)
+  Coordinates moments;
+  for (const JointMotions &motions : not_resisted(4. * coarsest * coarsest))
+    add_moments(motions, forces, moments);
+  if (moments.empty())
     return {};
-  // M = P Z (Z^T P Z)^+ Z^T F
-  std::vector<Coordinates>         turns;
-  dealii::LAPACKFullMatrix<double> matrix(n, n);
-  dealii::Vector<double>           part(n), factors(n);
-  for (const Coordinates &motion : motions)
-    turns.push_back(rotations(motion));
-  for (unsigned int i = 0; i < n; ++i)
-    {
-      part[i] = product(motions[i], forces);
-      for (unsigned int j = 0; j < n; ++j)
-        matrix(i, j) = product(motions[i], turns[j]);
-    }
-  matrix.compute_inverse_svd(smallest_turn);
-  matrix.vmult(factors, part);
-  Coordinates moments(n_coordinates, 0.);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int k = 0; k < n_coordinates; ++k)
-      moments[k] += factors[i] * turns[i][k];
   const std::vector<double> contact_forces = contact_on_bodies();
   double                    scale          = 1.;
   for (unsigned int i = 0; i < free_motions.size(); ++i)

@@ -58,19 +58,35 @@ FreeBodies<dim>::unbalanced(const Coordinates &resultants) const
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     nearest[contact.points()[i].pair] = std::min(nearest[contact.points()[i].pair], distance(i));
   dealii::Utilities::MPI::min(nearest, communicator, nearest);
-  Coordinates columns;
+  // Columns: their pairs, and their entries one after the other.
+  std::vector<unsigned int> pairs;
+  Coordinates               entries, column;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     if (const auto &point = contact.points()[i];
         nearest[point.pair] > nearly || distance(i) <= nearly)
       for (const auto &edge : edges_of_cone<dim>(contact.pairs()[point.pair].law, point.normal))
-        append_column(point, edge, columns);
-  const auto gathered = dealii::Utilities::MPI::gather(communicator, columns);
-  columns.clear();
-  for (const Coordinates &of_process : gathered)
-    columns.insert(columns.end(), of_process.begin(), of_process.end());
+        {
+          find_column(point, edge, column);
+          pairs.push_back(point.pair);
+          entries.insert(entries.end(), column.begin(), column.end());
+        }
+  const auto  all_pairs   = dealii::Utilities::MPI::gather(communicator, pairs);
+  const auto  all_entries = dealii::Utilities::MPI::gather(communicator, entries);
+  SparseRows  reactions;
   Coordinates result;
+  for (unsigned int process = 0; process < all_pairs.size(); ++process)
+    {
+      for (const unsigned int pair : all_pairs[process])
+        {
+          reactions.columns.insert(reactions.columns.end(), coordinates_of_pair[pair].begin(),
+                                   coordinates_of_pair[pair].end());
+          reactions.begin.push_back(reactions.columns.size());
+        }
+      reactions.values.insert(reactions.values.end(), all_entries[process].begin(),
+                              all_entries[process].end());
+    }
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    result = unbalanced_part(resultants, columns);
+    result = unbalanced_part(resultants, reactions);
   return dealii::Utilities::MPI::broadcast(communicator, result);
 }
 

@@ -181,9 +181,28 @@ IncrementInCells<dim>::at_nodes(const std::vector<unsigned int> &cells)
     component.assign(lattice.values().size(), unset);
   for (const unsigned int cell : cells)
     add_cell(cell, values);
-  for (auto &component : values)
-    dealii::Utilities::MPI::max(component, fields.grid.communicator(), component);
   return values;
+}
+
+/** The values that any process has set, of all bodies in one reduction. */
+template <int dim>
+void
+join(std::vector<NodalVectors<dim>> &fields, const MPI_Comm communicator)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+    return;
+  std::vector<double> all;
+  for (const auto &field : fields)
+    for (const auto &component : field)
+      all.insert(all.end(), component.begin(), component.end());
+  dealii::Utilities::MPI::max(all, communicator, all);
+  auto value = all.begin();
+  for (auto &field : fields)
+    for (auto &component : field)
+      {
+        std::copy_n(value, component.size(), component.begin());
+        value += component.size();
+      }
 }
 
 /** The nodes of a lattice in a box whose faces are on nodes. */
@@ -305,43 +324,6 @@ continue_off_body(const Lattice<dim> &lattice, const std::vector<char> &known,
   continue_through_faces<dim>(lattice, inside, v);
 }
 
-/**
- * Removes the pieces of the moved body that nothing of the old one went to: phi becomes half a
- * spacing there.
- * @param old   level set before the motion, on the same nodes
- * @param known nodes in the body's cells
- */
-template <int dim>
-unsigned int
-remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
-               const std::vector<char> &known, const NodalVectors<dim> &du)
-{
-  const Pieces pieces = negative_pieces(lattice);
-  if (pieces.n <= 1)
-    return 0;
-  std::vector<char> has_material(pieces.n + 1, 0);
-  for (std::size_t i = 0; i < known.size(); ++i)
-    {
-      if (!known[i] || old[i] >= 0.)
-        continue;
-      Index<dim> below = lattice.index(i);
-      for (unsigned int d = 0; d < dim; ++d)
-        below[d] += static_cast<int>(std::floor(du[d][i] / lattice.spacing()));
-      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-        {
-          Index<dim> node = below;
-          for (unsigned int d = 0; d < dim; ++d)
-            node[d] += corner >> d & 1u;
-          if (lattice.contains(node))
-            has_material[pieces.of_node[lattice.offset(node)]] = 1;
-        }
-    }
-  for (std::size_t i = 0; i < pieces.of_node.size(); ++i)
-    if (pieces.of_node[i] > 0 && !has_material[pieces.of_node[i]])
-      lattice.values()[i] = 0.5 * lattice.spacing();
-  return std::count(has_material.begin() + 1, has_material.end(), 0);
-}
-
 /** The box of the negative nodes and a spacing around it, clipped. */
 template <int dim>
 dealii::BoundingBox<dim>
@@ -378,34 +360,31 @@ known_nodes(const NodalVectors<dim> &v)
   return known;
 }
 
-/** A field of the body at all nodes of its lattice. */
-template <int dim>
-NodalVectors<dim>
-continued_field(const Lattice<dim> &lattice, const Fields<dim> &fields, const Vector &field,
-                const std::vector<unsigned int> &cells)
-{
-  NodalVectors<dim> v = IncrementInCells<dim>(fields, field, lattice).at_nodes(cells);
-  continue_off_body<dim>(lattice, known_nodes<dim>(v), fields.grid.box(), v);
-  return v;
-}
-
+/** Gives the lattice room for the increment. */
 template <int dim>
 BodyMotion<dim>
-move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
-               const Vector &displacement, const std::vector<unsigned int> &cells,
-               const LevelSetMotion &options, const double largest_increment)
+make_room(Lattice<dim> &phi, const dealii::BoundingBox<dim> &box, const double margin,
+          const double largest_increment)
 {
-  const dealii::BoundingBox<dim> box = fields.grid.box();
-  Lattice<dim>                  &phi = body.level_set;
-  BodyMotion<dim>                result;
+  BodyMotion<dim> result;
   result.largest_increment = largest_increment;
-  if (largest_increment > 0.5 * options.margin)
+  if (largest_increment > 0.5 * margin)
     {
-      phi = reboxed(phi, node_box_of_body(phi, options.margin + largest_increment, box));
+      phi               = reboxed(phi, node_box_of_body(phi, margin + largest_increment, box));
       result.is_reboxed = true;
     }
+  return result;
+}
 
-  NodalVectors<dim>       v     = IncrementInCells<dim>(fields, du, phi).at_nodes(cells);
+/** @param v increment at the nodes in the body's cells
+ *  @param u displacement there, of reference maps only */
+template <int dim>
+void
+move_level_set(Body<dim> &body, NodalVectors<dim> v, NodalVectors<dim> u,
+               const dealii::BoundingBox<dim> &box, const LevelSetMotion &options,
+               BodyMotion<dim> &result)
+{
+  Lattice<dim>           &phi   = body.level_set;
   const std::vector<char> known = known_nodes<dim>(v);
   result.face_increment         = largest_through_faces<dim>(phi, known, box, v);
   continue_off_body<dim>(phi, known, box, v);
@@ -416,11 +395,9 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
       if (options.motion == IncrementMotion::reference_map)
         {
           NodalVectors<dim> moved_by;
+          continue_off_body<dim>(phi, known_nodes<dim>(u), box, u);
           result.n_unconverged
-            = image_of_initial<dim>(phi, *body.initial_level_set, v,
-                                    continued_field<dim>(phi, fields, displacement, cells),
-                                    &moved_by)
-                .n_unconverged;
+            = image_of_initial<dim>(phi, *body.initial_level_set, v, u, &moved_by).n_unconverged;
           // Interpolants of the initial level set would round corners.
           if (body.shape && !body.shape->is_smooth() && body.shape->is_distance())
             for (std::size_t i = 0; i < phi.values().size(); ++i)
@@ -445,7 +422,6 @@ move_level_set(Body<dim> &body, const Fields<dim> &fields, const Vector &du,
   result.increment = ExtendedIncrement<dim>(phi, std::move(v));
   result.is_reboxed |= follow_body(phi, options.margin, box);
   body.box = box_of_body(phi, box);
-  return result;
 }
 } // namespace
 
@@ -468,11 +444,24 @@ move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const
   require_movable(bodies);
   const auto                   cells   = cells_of_bodies(fields, bodies.size());
   const std::vector<double>    largest = largest_increments(fields, du, cells);
+  const auto                   box     = fields.grid.box();
   std::vector<BodyMotion<dim>> motions(bodies.size());
+  // Of du, and of the displacement for reference maps.
+  std::vector<NodalVectors<dim>> at_nodes(2 * bodies.size());
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
-      motions[b]
-        = move_level_set(bodies[b], fields, du, displacement, cells[b], options, largest[b]);
+      {
+        Lattice<dim> &phi = bodies[b].level_set;
+        motions[b]        = make_room(phi, box, options.margin, largest[b]);
+        at_nodes[2 * b]   = IncrementInCells<dim>(fields, du, phi).at_nodes(cells[b]);
+        if (options.motion == IncrementMotion::reference_map)
+          at_nodes[2 * b + 1] = IncrementInCells<dim>(fields, displacement, phi).at_nodes(cells[b]);
+      }
+  join<dim>(at_nodes, fields.grid.communicator());
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid())
+      move_level_set<dim>(bodies[b], std::move(at_nodes[2 * b]), std::move(at_nodes[2 * b + 1]),
+                          box, options, motions[b]);
   return motions;
 }
 

@@ -98,7 +98,8 @@ template <int dim>
 void
 LongTables<dim>::gather(const double step, const double time, const std::vector<ContactPair> &pairs,
                         const std::vector<ContactSummary<dim>> &summaries,
-                        const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving)
+                        const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving,
+                        const bool writes)
 {
   contact_rows.clear();
   body_rows.clear();
@@ -115,7 +116,7 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
       const auto  unique_pair = std::make_pair(a, b);
       if (is_closed)
         met.insert(unique_pair);
-      if (met.count(unique_pair) == 0)
+      if (!writes || met.count(unique_pair) == 0)
         continue;
       const dealii::Tensor<1, 3> moment_a = -moment_about(motions[a], summary),
                                  moment_b = moment_about(motions[b], summary);
@@ -128,7 +129,7 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
       n_contacts[a] += is_closed;
       n_contacts[b] += is_closed;
     }
-  for (unsigned int b = 0; b < bodies.size(); ++b)
+  for (unsigned int b = 0; b < bodies.size() && writes; ++b)
     {
       body_rows.push_back({CsvTable::word(step), CsvTable::word(time), bodies[b].name});
       auto &row = body_rows.back();

@@ -230,8 +230,12 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                              const CutQuadrature<dim> &quadrature, const Bulk<dim> &bulk,
                              const Vector &u)
 {
-  history_names        = history_columns(equilibrium, contact);
-  names_left_out       = left_out(equilibrium, contact);
+  if (history_names.empty())
+    {
+      // They stay: pairs that come and go have no columns.
+      history_names  = history_columns(equilibrium, contact);
+      names_left_out = left_out(equilibrium, contact);
+    }
   is_moving            = !equilibrium.is_linear_but_for_contact();
   const auto ghosted_u = equilibrium.with_ghosts(u);
   const auto summaries = summarise_contact(contact, fields->grid.communicator());
@@ -265,7 +269,8 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                               energies.contact, energies.dissipation, energies.plastic,
                               energies.external_work, energies.transfer, energies.balance_error()})
     values.push_back(energy);
-  long_tables.gather(record.step, record.time, contact.pairs(), summaries, motions, is_moving);
+  long_tables.gather(record.step, record.time, contact.pairs(), summaries, motions, is_moving,
+                     is_first);
 }
 
 template <int dim>

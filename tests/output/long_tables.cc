@@ -37,19 +37,21 @@ namespace
 {
 using namespace dealii;
 
-/** n^2 discs on springs that nearly touch. */
+/** n^2 discs that nearly touch, on springs unless they are free. */
 std::string
-discs(const unsigned int n)
+discs(const unsigned int n, const bool are_free = false)
 {
+  const std::string conditions
+    = are_free ? ""
+               : conditions_text({{"all", "set On = surface\nset Type = springs\nset Value = 1; 1"},
+                                  {"right", "set On = surface\nset Type = traction\n"
+                                            "set Where = x > 0\nset Value = 1; 0"}});
   std::vector<std::pair<std::string, std::string>> bodies;
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
-      bodies.emplace_back(
-        "d" + std::to_string(i * n + j),
-        ball_text(std::to_string(i + 0.5) + ", " + std::to_string(j + 0.5), 0.49)
-          + conditions_text({{"all", "set On = surface\nset Type = springs\nset Value = 1; 1"},
-                             {"right", "set On = surface\nset Type = traction\n"
-                                       "set Where = x > 0\nset Value = 1; 0"}}));
+      bodies.emplace_back("d" + std::to_string(i * n + j),
+                          ball_text(std::to_string(i + 0.5) + ", " + std::to_string(j + 0.5), 0.49)
+                            + conditions);
   const std::string size = std::to_string(n);
   return grid_text("0, 0", size + ", " + size, size + ", " + size, 3) + degree_text(1)
          + bodies_text(bodies) + contact_text("set Law = frictionless");
@@ -77,6 +79,37 @@ TEST(LongTablesMPI, CollectiveCallsDoNotGrowWithTheBodies)
   EXPECT_EQ(n_of_nine, collectives_of_tables(6));
   // Packed summaries are broadcast with their size.
   EXPECT_LE(n_of_nine, 5u);
+}
+
+/** The number of collective calls of an iteration of Newton's method on free discs, one of which
+ * moves far. */
+unsigned int
+collectives_of_iteration(const unsigned int n)
+{
+  EquilibriumModel<2> model(discs(n, true));
+  auto               &equilibrium = model.equilibrium;
+  auto                u = model.state.displacement, r = u, du = u;
+  EXPECT_EQ(equilibrium.free_bodies().size(), n * n);
+  equilibrium.residual(u, model.state.contact, r);
+  for (const auto unknown : equilibrium.free_motions().unknowns(0))
+    du(unknown) = 1.;
+  du.compress(dealii::VectorOperation::insert);
+  n_collectives = 0;
+  equilibrium.residual(u, model.state.contact, r);
+  EXPECT_FALSE(equilibrium.balance_rigid_motions(u, model.state.contact));
+  equilibrium.tangent();
+  equilibrium.is_symmetric();
+  equilibrium.force_scale();
+  equilibrium.round_off();
+  equilibrium.shorten(du, 0.1);
+  const unsigned int result = n_collectives;
+  EXPECT_NEAR(du.linfty_norm(), 0.1, 1e-12);
+  return result;
+}
+
+TEST(LongTablesMPI, CollectiveCallsOfAnIterationDoNotGrowWithTheBodies)
+{
+  EXPECT_EQ(collectives_of_iteration(3), collectives_of_iteration(6));
 }
 
 TEST(LongTablesMPI, MotionOfADisc)
@@ -141,7 +174,7 @@ write_step(LongTables<2> &tables, const double step, const bool is_closed)
     }
   std::vector<MeanMotion<2>> motions(2);
   motions[1].position = Point<2>(2., 0.);
-  tables.gather(step, 0.5 * step, {{0, 1, "a-b", {}}}, {summary}, motions, true);
+  tables.gather(step, 0.5 * step, {{0, 1, "a-b", {}}}, {summary}, motions, true, true);
   tables.add_transfers({{{0u, 1u}, Tensor<1, 2>({0.25, 0.})}});
   tables.write();
 }

@@ -18,6 +18,21 @@ dot(const double *a, const double *b, const std::size_t n)
   return sum;
 }
 
+/** Columns of n numbers, one after the other, as rows. */
+SparseRows
+rows_of(const std::vector<double> &columns, const std::size_t n)
+{
+  SparseRows rows;
+  rows.values = columns;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      rows.columns.push_back(i % n);
+      if ((i + 1) % n == 0)
+        rows.begin.push_back(i + 1);
+    }
+  return rows;
+}
+
 /** Pressure and friction under a block of width 1: coordinates x, y, rotation about (0, 1). */
 std::vector<double>
 floor_under_block(const double mu)
@@ -34,7 +49,7 @@ TEST(ConeProjection, BlockStandsSlidesOrTips)
 {
   // Weight 1 and a push at height 1: slides beyond mu, tips beyond half the width.
   const auto push = [](const double force, const double mu) {
-    return unbalanced_part({force, -1., 0.}, floor_under_block(mu));
+    return unbalanced_part({force, -1., 0.}, rows_of(floor_under_block(mu), 3));
   };
   for (const double part : push(0.49, 0.8))
     EXPECT_NEAR(part, 0., 1e-9);
@@ -63,7 +78,7 @@ TEST(ConeProjection, SatisfiesFarkas)
         columns[j * n] = std::abs(columns[j * n]);
       for (double &value : f)
         value = normal(generator);
-      const auto r = unbalanced_part(f, columns);
+      const auto r = unbalanced_part(f, rows_of(columns, n));
       for (std::size_t j = 0; j < m; ++j)
         EXPECT_GT(dot(&columns[j * n], r.data(), n), -1e-8);
       EXPECT_NEAR(dot(r.data(), f.data(), n), dot(r.data(), r.data(), n), 1e-8);

@@ -2,6 +2,7 @@
 
 #include <scree/bodies/boundary_foot.h>
 
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -24,6 +25,10 @@ public:
 
   /** The signed distance where it is known [L]. */
   double value(const unsigned int body, const dealii::Point<dim> &x) const;
+
+  /** value() and normal(), of one search. */
+  std::pair<double, dealii::Tensor<1, dim>> value_and_normal(const unsigned int        body,
+                                                             const dealii::Point<dim> &x) const;
 
   /** The unit normal out of the body. */
   dealii::Tensor<1, dim> normal(const unsigned int body, const dealii::Point<dim> &x) const;

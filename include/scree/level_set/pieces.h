@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/level_set/advection.h>
 #include <scree/level_set/lattice.h>
 
 #include <vector>
@@ -16,4 +17,16 @@ struct Pieces
 /** The pieces of a dense lattice; nodes are joined along the axes. */
 template <int dim>
 Pieces negative_pieces(const Lattice<dim> &lattice);
+
+/**
+ * Removes the pieces of a moved body that nothing of the old one went to: phi becomes half a
+ * spacing there.
+ * @param old   level set before the motion, on the same nodes
+ * @param known nodes in the body's cells
+ * @param du    what moved the nodes that are known [L]
+ * @return      their number
+ */
+template <int dim>
+unsigned int remove_islands(Lattice<dim> &lattice, const std::vector<double> &old,
+                            const std::vector<char> &known, const NodalVectors<dim> &du);
 } // namespace scree

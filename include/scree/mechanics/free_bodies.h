@@ -66,20 +66,12 @@ public:
   }
 
   /**
-   * Motions that the contact of the last evaluation does not resist: the null space of the sum of
-   * the outer products of what closed points feel of the coordinates, along the normal and, where
-   * they stick, along the tangents; pairs count alike (collective).
-   *
-   * @param negligible part of the trace
-   */
-  std::vector<Coordinates> not_resisted(const double negligible = 1e-6) const;
-
-  /**
    * Moments M on the free bodies that balance what forces do on motions that the contact of the
    * last evaluation resists only because it acts at points: Z^T M = Z^T F, Z the motions that it
-   * resists by less than (h/2L)^2 of the trace, L half the size of the body. Contact points are
-   * up to half a spacing beside where contact should act, so that M of a body is at most h/4 times
-   * the sum of the contact forces on it; larger ones are scaled down together (collective).
+   * resists by less than (h/2L)^2 of what a body's contacts do at most, L half the size of the
+   * body. Contact points are up to half a spacing beside where contact should act, so that M of a
+   * body is at most h/4 times the sum of the contact forces on it; larger ones are scaled down
+   * together (collective).
    *
    * @param share of that bound
    */
@@ -95,7 +87,8 @@ public:
    */
   void subtract(const Coordinates &forces, const Vector &mass, Vector &r) const;
 
-  /** The free bodies that take part in such a motion (collective). */
+  /** The free bodies with motions that the contact of the last evaluation does not resist
+   * (collective). */
   std::vector<unsigned int> not_held() const;
 
   /**
@@ -162,6 +155,14 @@ public:
 private:
   using Motions = RigidMotions<dim>;
   struct Balance;
+  struct Group;
+
+  /** Orthonormal motions of some coordinates: columns. */
+  struct JointMotions
+  {
+    std::vector<unsigned int>  coordinates;
+    dealii::FullMatrix<double> vectors;
+  };
 
   static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
 
@@ -173,6 +174,22 @@ private:
   /** What coordinate k of a free body does to a position. */
   dealii::Tensor<1, dim> motion(const unsigned int free_body, const unsigned int k,
                                 const dealii::Point<dim> &x) const;
+  /**
+   * Of each pair the sum of the outer products of what its closed points feel of its coordinates,
+   * along the normal and, where they stick, along the tangents, scaled to the trace 1, so that
+   * pairs count alike; empty without closed points (collective).
+   */
+  std::vector<dealii::FullMatrix<double>> resistance_of_contact() const;
+  /** Free bodies that closed pairs join. */
+  std::vector<Group> groups(const std::vector<dealii::FullMatrix<double>> &of_pairs) const;
+  /**
+   * Motions that contact resists by no more than a part of what the closed pairs of a body do at
+   * most, of each group: the null space of the sum of resistance_of_contact() (collective).
+   */
+  std::vector<JointMotions> not_resisted(const double negligible_part) const;
+  /** Adds misplaced_moments() of a group, not scaled down yet. */
+  void add_moments(const JointMotions &motions, const Coordinates &forces,
+                   Coordinates &moments) const;
   /** P q: the rotations in a motion. */
   Coordinates rotations(const Coordinates &motion) const;
   /** Sums of the lengths of contact forces on the free bodies (collective). */
@@ -193,10 +210,9 @@ private:
   /** result += factor M R motion, R the motions_of(), M = 1 if null. */
   void add_small(const double factor, const Coordinates &motion, const Vector *u,
                  const Vector *mass, Vector &result) const;
-  /** Appends what the coordinates do to the relative motion at a contact point along `direction`.
-   */
-  void append_column(const ContactPoint<dim> &point, const dealii::Tensor<1, dim> &direction,
-                     Coordinates &columns) const;
+  /** What the coordinates of the pair do to the relative motion at a point along `direction`. */
+  void find_column(const ContactPoint<dim> &point, const dealii::Tensor<1, dim> &direction,
+                   Coordinates &column) const;
 
   const std::vector<Body<dim>> &bodies;
   const StrongSupports<dim>    &supports;

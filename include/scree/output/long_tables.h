@@ -42,10 +42,15 @@ class LongTables
 public:
   LongTables(const std::string &directory, const std::vector<Body<dim>> &bodies);
 
-  /** Gathers the rows of a step; `motions` of all bodies. */
+  /**
+   * Gathers the rows of a step.
+   * @param motions of all bodies
+   * @param writes  whether this process writes the tables; the others note which pairs have met
+   */
   void gather(const double step, const double time, const std::vector<ContactPair> &pairs,
               const std::vector<ContactSummary<dim>> &summaries,
-              const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving);
+              const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving,
+              const bool writes);
 
   /** Adds the changes of the tangential forces of pairs: see MotionRecord. */
   void add_transfers(
