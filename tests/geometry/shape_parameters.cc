@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/geometry/shape.h>
+#include <scree/geometry/shape_parameters.h>
 #include <scree/parameters/file.h>
 
 #include <cmath>
@@ -178,8 +178,8 @@ TEST(ShapeParameters, WrittenBackTheyReadTheSame)
   ShapeParameters<2> again;
   again.declare(again_file.root());
   EXPECT_NO_THROW(again_file.check());
-  EXPECT_EQ(again.type, ShapeType::box);
-  EXPECT_EQ(again.upper_corner, parameters.upper_corner);
+  EXPECT_EQ(again.type, "box");
+  EXPECT_EQ(again.coordinates("Upper corner"), parameters.coordinates("Upper corner"));
   EXPECT_EQ(again.rotation_angle, 30);
 }
 
