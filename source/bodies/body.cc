@@ -184,7 +184,7 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       const std::shared_ptr<const Shape<dim>> shape      = make_shape<dim>(body.shape);
       const LatticeFrame<dim>                &body_frame = is_rigid ? wide_frame : frame;
       const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
-      if (body.shape.type == ShapeType::expression && body.shape.expression_is_distance)
+      if (shape->is_claimed_distance())
         require_distance(*shape, frame.spacing, box, body.path + "/Shape");
       std::vector<BoundaryCondition<dim>> conditions;
       for (const auto &[name, condition] : body.conditions)

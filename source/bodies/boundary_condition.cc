@@ -4,15 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace scree
 {
-const EnumNames<ConditionType> condition_type_names = {
-  {ConditionType::displacement, "displacement"},   {ConditionType::traction, "traction"},
-  {ConditionType::pressure, "pressure"},           {ConditionType::springs, "springs"},
-  {ConditionType::point_support, "point support"}, {ConditionType::mean_support, "mean support"}};
-
 const EnumNames<DisplacementMethod> displacement_method_names
   = {{DisplacementMethod::automatic, "automatic"},
      {DisplacementMethod::nitsche, "nitsche"},
@@ -50,7 +46,7 @@ template <int dim>
 unsigned int
 n_values(const BoundaryConditionParameters<dim> &parameters)
 {
-  if (parameters.type == ConditionType::pressure)
+  if (!condition_kind<dim>(parameters.type).uses("Components"))
     return 1;
   return parameters.components.empty() ? dim : parameters.components.size();
 }
@@ -68,24 +64,78 @@ value_text(const BoundaryConditionParameters<dim> &parameters)
   return zeros;
 }
 
-/** Records entries that have a value but no meaning for the type. */
+/** The names of the kinds for which `answer` is true, as in "pressure, wind". */
+template <int dim, typename Question>
+std::string
+names_of_kinds(const Question &answer)
+{
+  std::vector<std::string> names;
+  for (const auto &kind : registered_conditions<dim>())
+    if (answer(kind))
+      names.push_back(kind.name);
+  return joined(names, ", ");
+}
+
+/** Declares the entry Type and those that several kinds share. */
 template <int dim>
 void
-check_unused_entries(const BoundaryConditionParameters<dim> &parameters,
-                     const ParameterSection                 &section)
+declare_shared_entries(BoundaryConditionParameters<dim> &p, const ParameterSection &section)
 {
-  const auto  type      = parameters.type;
-  const auto &name      = name_of(condition_type_names, type);
-  const auto  is_unused = [&](const std::string &key, const bool is_used) {
-    if (!is_used && section.is_set(key))
-      section.error(key, "a " + name + " condition does not use it", "remove the line");
-  };
-  is_unused("Components", type != ConditionType::pressure);
-  is_unused("Method", type == ConditionType::displacement);
-  is_unused("Penalty factor", type == ConditionType::displacement);
-  is_unused("Point", type == ConditionType::point_support);
-  is_unused("On", type != ConditionType::point_support);
-  is_unused("Where", type != ConditionType::point_support);
+  std::vector<std::string> types;
+  for (const auto &kind : registered_conditions<dim>())
+    types.push_back(kind.name);
+  p.type = section.choice("Type", p.type, types, "What is prescribed.");
+  section.entry("On", p.on, dealii::Patterns::Selection(joined(region_names<dim>(), "|")),
+                "Where: a face of the background box that clips the body (fitted), or 'surface', "
+                "the body's own surface inside the box.");
+  section.entry("Where", p.where,
+                "Expression of x, y, z in the initial configuration that selects the part (not "
+                "zero: selected), for example x > 1.");
+  section.entry("Components", p.components,
+                "The components concerned, a list of x, y, z ("
+                  + names_of_kinds<dim>([](const auto &kind) { return kind.takes_a_rotation; })
+                  + ": also rotation); empty: all displacement components. Not used by "
+                  + names_of_kinds<dim>([](const auto &kind) { return !kind.uses("Components"); })
+                  + ".");
+  section.entry(
+    "Value", p.value,
+    "One expression of x, y, z, t per component, separated by ';': displacement [L], "
+    "traction or pressure [force/area], spring stiffness, of t = 0 [force/area/L]; empty: "
+    "zero.");
+}
+
+template <int dim>
+void
+check_components(const BoundaryConditionParameters<dim> &p, const ConditionKind<dim> &kind,
+                 const ParameterSection &section)
+{
+  std::vector<std::string> allowed(axes.begin(), axes.begin() + dim);
+  if (kind.takes_a_rotation)
+    allowed.push_back("rotation");
+  for (const auto &component : p.components)
+    if (std::find(allowed.begin(), allowed.end(), component) == allowed.end())
+      section.error("Components", "'" + component + "' is no component here",
+                    "allowed: " + joined(allowed, ", "));
+    else if (std::count(p.components.begin(), p.components.end(), component) > 1)
+      {
+        section.error("Components", "'" + component + "' is listed twice", "list each once");
+        break;
+      }
+}
+
+/** Records entries that have a value but no meaning for the kind. */
+template <int dim>
+void
+check_unused_entries(const ConditionKind<dim> &kind, const ParameterSection &section)
+{
+  std::set<std::string> unused;
+  for (const auto &other : registered_conditions<dim>())
+    unused.insert(other.entries.begin(), other.entries.end());
+  for (const std::string &entry : kind.entries)
+    unused.erase(entry);
+  for (const std::string &entry : unused)
+    if (section.is_set(entry))
+      section.error(entry, "a " + kind.name + " condition does not use it", "remove the line");
 }
 } // namespace
 
@@ -93,49 +143,16 @@ template <int dim>
 void
 BoundaryConditionParameters<dim>::declare(ParameterSection &section)
 {
-  const auto faces = region_names<dim>();
-  section.entry("Type", type, condition_type_names, "What is prescribed.");
-  section.entry("On", on, dealii::Patterns::Selection(joined(faces, "|")),
-                "Where: a face of the background box that clips the body (fitted), or 'surface', "
-                "the body's own surface inside the box.");
-  section.entry("Where", where,
-                "Expression of x, y, z in the initial configuration that selects the part (not "
-                "zero: selected), for example x > 1.");
-  section.entry("Components", components,
-                "The components concerned, a list of x, y, z (mean support: also rotation); empty: "
-                "all displacement components. Not used by pressure.");
-  section.entry(
-    "Value", value,
-    "One expression of x, y, z, t per component, separated by ';': displacement [L], "
-    "traction or pressure [force/area], spring stiffness, of t = 0 [force/area/L]; empty: "
-    "zero.");
-  section.entry("Method", method, displacement_method_names,
-                "How a displacement is imposed; automatic: exactly on a box face, by Nitsche on "
-                "the cut surface.");
-  section.entry("Penalty factor", penalty_factor, dealii::Patterns::Double(0.),
-                "c in beta = c k^2 (2 mu + lambda)/h of Nitsche and penalty; no dimension.");
-  section.entry("Point", point, "Position of a point support [L].");
+  declare_shared_entries(*this, section);
+  for (const auto &kind : registered_conditions<dim>())
+    if (kind.declare != nullptr)
+      kind.declare(*this, section, kind.name == type);
 
-  std::vector<std::string> allowed(axes.begin(), axes.begin() + dim);
-  if (type == ConditionType::mean_support)
-    allowed.push_back("rotation");
-  for (const auto &component : components)
-    if (std::find(allowed.begin(), allowed.end(), component) == allowed.end())
-      section.error("Components", "'" + component + "' is no component here",
-                    "allowed: " + joined(allowed, ", "));
-    else if (std::count(components.begin(), components.end(), component) > 1)
-      {
-        section.error("Components", "'" + component + "' is listed twice", "list each once");
-        break;
-      }
-  check_unused_entries(*this, section);
-  if (penalty_factor == 0. && method != DisplacementMethod::nonsymmetric_nitsche)
-    section.error("Penalty factor", "only nonsymmetric nitsche works without a penalty",
-                  "10 to 100 for the other methods");
-  if (value.empty()
-      && (type == ConditionType::traction || type == ConditionType::pressure
-          || type == ConditionType::springs))
-    section.error("Value", "a " + name_of(condition_type_names, type) + " condition needs a value",
+  const ConditionKind<dim> &kind = condition_kind<dim>(type);
+  check_components(*this, kind, section);
+  check_unused_entries(kind, section);
+  if (value.empty() && kind.needs_value)
+    section.error("Value", "a " + kind.name + " condition needs a value",
                   "set Value = expression(s) of x, y, z, t");
   check_expression<dim>(section, "Where", where, 1);
   check_expression<dim>(section, "Value", value_text(*this), n_values(*this));
@@ -147,6 +164,7 @@ BoundaryCondition<dim>::BoundaryCondition(const std::string &name, const std::st
     : name(name)
     , path(path)
     , parameters(parameters)
+    , of_kind(&condition_kind<dim>(parameters.type))
     , region(parameters.where, 1, path + "/Where")
     , values(value_text(parameters), n_values(parameters), path + "/Value")
 {

@@ -14,6 +14,13 @@ Shape<dim>::is_distance() const
 
 template <int dim>
 bool
+Shape<dim>::is_claimed_distance() const
+{
+  return false;
+}
+
+template <int dim>
+bool
 Shape<dim>::is_smooth() const
 {
   return true;
@@ -29,6 +36,15 @@ Shape<dim>::append_pieces(const dealii::BoundingBox<dim> &box,
   if (is_distance() && std::abs(signed_distance(lower + 0.5 * (upper - lower))) > reach)
     return;
   pieces.emplace_back([this](const dealii::Point<dim> &x) { return signed_distance(x); });
+}
+
+template <int dim>
+dealii::BoundingBox<dim>
+unbounded_box()
+{
+  dealii::BoundingBox<dim> result({dealii::Point<dim>(), dealii::Point<dim>()});
+  result.extend(Shape<dim>::unbounded);
+  return result;
 }
 
 namespace
@@ -92,28 +108,10 @@ active_pieces(const Shape<dim> &shape, const dealii::Point<dim> &x, const double
   return result;
 }
 
-const EnumNames<ShapeType> &
-shape_type_names()
-{
-  static const EnumNames<ShapeType> names = {{ShapeType::ball, "disc"},
-                                             {ShapeType::ball, "ball"},
-                                             {ShapeType::box, "box"},
-                                             {ShapeType::half_space, "half space"},
-                                             {ShapeType::ellipse, "ellipse"},
-                                             {ShapeType::ellipse, "ellipsoid"},
-                                             {ShapeType::ring, "ring"},
-                                             {ShapeType::capsule, "capsule"},
-                                             {ShapeType::polygon, "polygon"},
-                                             {ShapeType::superellipse, "superellipse"},
-                                             {ShapeType::expression, "expression"},
-                                             {ShapeType::union_of, "union"},
-                                             {ShapeType::intersection, "intersection"},
-                                             {ShapeType::difference, "difference"}};
-  return names;
-}
-
 template class Shape<2>;
 template class Shape<3>;
+template dealii::BoundingBox<2>      unbounded_box();
+template dealii::BoundingBox<3>      unbounded_box();
 template std::vector<SmoothPiece<2>> active_pieces(const Shape<2> &, const dealii::Point<2> &,
                                                    const double);
 template std::vector<SmoothPiece<3>> active_pieces(const Shape<3> &, const dealii::Point<3> &,

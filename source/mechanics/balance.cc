@@ -106,10 +106,13 @@ Equilibrium<dim>::balance(const Vector &u) const
           sum.scale += contact_force.norm() + body_force.norm();
         }
     }
-  for (const auto &region : boundary_terms.regions())
-    for (unsigned int q = 0; q < region.points.size(); ++q)
-      sums[region.body].scale += region.points[q].weight
-                                 * boundary_terms.traction(region, q, seen_by_bulk(), time).norm();
+  for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
+    {
+      const auto &region    = boundary_terms.regions()[r];
+      const auto  tractions = boundary_terms.tractions(r, seen_by_bulk(), time);
+      for (unsigned int q = 0; q < tractions.size(); ++q)
+        sums[region.body].scale += region.points[q].weight * tractions[q].norm();
+    }
   for (const auto &unknown : supports.unknowns())
     sums[supports.conditions()[unknown.support].first].scale += std::abs(held(unknown.index));
   sum_over_processes(sums, fields.grid.communicator());

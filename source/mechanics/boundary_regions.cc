@@ -19,13 +19,11 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
   const bool         on_face  = face != BoundaryCondition<dim>::no_face;
   if (on_face ? !geometry.iterator->at_boundary(face) : !cell.is_cut)
     return;
-  // Loads see the exact boundary; what holds a body acts on the cut one, as the bulk does, and so
-  // does a pressure all around, whose uniform stress is then exact.
+  // Loads see the exact boundary; what holds a body acts on the cut one, as the bulk does.
   const auto &parameters = region.condition->parameters;
   const bool  is_whole   = parameters.where == "1";
-  const bool  is_load    = (parameters.type == ConditionType::traction
-                        || (parameters.type == ConditionType::pressure && !(is_whole && !on_face)))
-                       && !start && body.shape;
+  const auto  is_exact   = region.condition->kind().law.acts_on_exact_boundary;
+  const bool  is_load    = is_exact != nullptr && is_exact(parameters) && !start && body.shape;
   std::function<bool(const dealii::Point<dim> &)> selects; // none: all
   if (!is_whole)
     selects = [&](const dealii::Point<dim> &x) { return region.condition->selects(x); };
@@ -118,12 +116,11 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (const auto &condition : bodies[b].conditions)
       {
-        if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
+        if (condition.is_strong() || condition.is_at_vertex())
           continue;
         regions_of_body[b].push_back(regions.size());
         regions.push_back({b, &condition, {}, 0., {}, 0., next_multiplier});
-        if (condition.parameters.type == ConditionType::mean_support)
-          next_multiplier += condition.components.size();
+        next_multiplier += condition.n_multipliers();
       }
   CutCellRules<dim> rules(fields.basis);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)

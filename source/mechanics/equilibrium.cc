@@ -341,11 +341,14 @@ Equilibrium<dim>::force_scale() const
   double held    = 0.;
   for (const auto &unknown : supports.unknowns())
     held += all(unknown.index) * all(unknown.index);
-  for (const auto &region : boundary_terms.regions())
-    if (region.condition->parameters.type == ConditionType::displacement)
-      for (unsigned int q = 0; q < region.points.size(); ++q)
-        held += std::pow(region.points[q].weight, 2)
-                * boundary_terms.traction(region, q, seen_by_bulk(), time).norm_square();
+  for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
+    if (const auto &region = boundary_terms.regions()[r];
+        region.condition->prescribes_displacement())
+      {
+        const auto tractions = boundary_terms.tractions(r, seen_by_bulk(), time);
+        for (unsigned int q = 0; q < tractions.size(); ++q)
+          held += std::pow(region.points[q].weight, 2) * tractions[q].norm_square();
+      }
   squares += dealii::Utilities::MPI::sum(held, fields.grid.communicator());
   return std::sqrt(squares);
 }

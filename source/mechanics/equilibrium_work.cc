@@ -27,8 +27,7 @@ template <int dim>
 bool
 Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &region) const
 {
-  return region.condition->parameters.type == ConditionType::pressure
-         && bulk.step_start() != nullptr;
+  return region.condition->kind().law.follows_surface && bulk.step_start() != nullptr;
 }
 
 template <int dim>
@@ -39,12 +38,15 @@ Equilibrium<dim>::work_of_pressures(const Vector &with_ghost_values) const
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
       const auto &region = boundary_terms.regions()[i];
-      for (unsigned int q = 0; q < accepted_tractions[i].size(); ++q)
+      if (!is_following_pressure(region))
+        continue;
+      const auto tractions = boundary_terms.tractions(i, with_ghost_values, time);
+      for (unsigned int q = 0; q < tractions.size(); ++q)
         {
-          const auto traction = boundary_terms.traction(region, q, with_ghost_values, time);
-          const auto motion   = boundary_terms.displacement_at(region, q, with_ghost_values)
+          const auto motion = boundary_terms.displacement_at(region, q, with_ghost_values)
                               - accepted_displacements[i][q];
-          work += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + traction) * motion;
+          work
+            += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + tractions[q]) * motion;
         }
     }
   return work;
@@ -297,17 +299,17 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
     {
       const auto &region      = boundary_terms.regions()[i];
       const bool  is_pressure = is_following_pressure(region);
-      if (!is_pressure && region.condition->parameters.type != ConditionType::displacement)
+      if (!is_pressure && !region.condition->prescribes_displacement())
         continue;
+      const auto tractions = boundary_terms.tractions(i, with_ghost_values, time);
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
-          const auto &point    = region.points[q];
-          const auto  traction = boundary_terms.traction(region, q, with_ghost_values, time);
+          const auto &point = region.points[q];
           if (!is_pressure)
-            accepted_driven.push_back({i, point.reference_position, point.weight * traction});
+            accepted_driven.push_back({i, point.reference_position, point.weight * tractions[q]});
           else
             {
-              accepted_tractions[i][q] = traction;
+              accepted_tractions[i][q] = tractions[q];
               accepted_displacements[i][q]
                 = boundary_terms.displacement_at(region, q, with_ghost_values);
             }

@@ -93,9 +93,8 @@ FreeBodies<dim>::resistance_of_supports(const std::vector<Motions> &motions) con
     }
   for (const auto &region : boundary_terms.regions())
     {
-      const ConditionType type = region.condition->parameters.type;
-      const unsigned int  b    = region.body;
-      if (type == ConditionType::traction || type == ConditionType::pressure)
+      const unsigned int b = region.body;
+      if (!region.condition->resists_motion())
         continue;
       for (const unsigned int component : region.condition->components)
         if (component >= dim)
@@ -103,7 +102,7 @@ FreeBodies<dim>::resistance_of_supports(const std::vector<Motions> &motions) con
             if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
               motions[b].add_motion_resistance(Motions::n_motions - 1, held[b]);
           }
-        else if (type == ConditionType::mean_support)
+        else if (region.condition->n_multipliers() > 0)
           {
             // Only the mean is held, that of a rigid motion is the motion of the centre.
             if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)

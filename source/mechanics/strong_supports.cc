@@ -40,7 +40,7 @@ StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector
   std::vector<std::vector<unsigned int>> supports_of_body(bodies.size());
   for (unsigned int b = 0; b < bodies.size(); ++b)
     for (const auto &condition : bodies[b].conditions)
-      if (condition.is_strong() || condition.parameters.type == ConditionType::point_support)
+      if (condition.is_strong() || condition.is_at_vertex())
         {
           supports_of_body[b].push_back(supports.size());
           supports.emplace_back(b, &condition);
@@ -64,7 +64,7 @@ StrongSupports<dim>::is_prescribed_at(const BoundaryCondition<dim> &condition,
                                       const dealii::Point<dim>     &unit_node,
                                       const dealii::Point<dim>     &reference_position) const
 {
-  if (condition.parameters.type == ConditionType::point_support)
+  if (condition.is_at_vertex())
     return dealii::Point<dim>(cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node))
              .distance(condition.parameters.point)
            < 1e-6 * cell.size;
@@ -127,7 +127,7 @@ StrongSupports<dim>::require_selections(const std::vector<Body<dim>> &bodies,
   for (unsigned int s = 0; s < supports.size(); ++s)
     {
       const auto &[body, condition] = supports[s];
-      const bool is_point           = condition->parameters.type == ConditionType::point_support;
+      const bool is_point           = condition->is_at_vertex();
       require(selections[s].n_nodes > 0., condition->path,
               is_point
                 ? "there is no vertex of the body '" + bodies[body].name + "' at the given point"
@@ -151,7 +151,7 @@ StrongSupports<dim>::increment(const PrescribedUnknown<dim> &unknown, const doub
     return now;
   const double result
     = now - condition.value(unknown.value, unknown.reference_position, start_time);
-  const bool is_vertex = condition.parameters.type == ConditionType::point_support;
+  const bool is_vertex = condition.is_at_vertex();
   require(result == 0. || (!is_vertex && condition.box_face / 2 != unknown.component),
           condition.path,
           std::string("on a moving geometry ")

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <scree/bodies/boundary_foot.h>
+#include <scree/geometry/ball.h>
+#include <scree/geometry/box.h>
 #include <scree/geometry/level_set_from_shape.h>
-#include <scree/geometry/simple_shapes.h>
+#include <scree/geometry/polygon.h>
 
 #include <cmath>
 

@@ -76,8 +76,7 @@ struct CutBodies
     unsigned int n_multipliers = 0;
     for (const auto &body : bodies)
       for (const auto &condition : body.conditions)
-        if (condition.parameters.type == ConditionType::mean_support)
-          n_multipliers += condition.components.size();
+        n_multipliers += condition.n_multipliers();
     fields = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies, n_multipliers);
   }
 

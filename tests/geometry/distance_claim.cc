@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/geometry/composed_shapes.h>
 #include <scree/geometry/distance_claim.h>
+#include <scree/geometry/expression_shape.h>
 #include <scree/geometry/level_set_from_shape.h>
-#include <scree/geometry/simple_shapes.h>
 
 #include <cmath>
 

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/geometry/composed_shapes.h>
+#include <scree/geometry/ball.h>
+#include <scree/geometry/box.h>
+#include <scree/geometry/combined_shape.h>
+#include <scree/geometry/expression_shape.h>
+#include <scree/geometry/half_space.h>
 #include <scree/geometry/level_set_from_shape.h>
-#include <scree/geometry/simple_shapes.h>
+#include <scree/geometry/moved_shape.h>
+#include <scree/geometry/superellipse.h>
 #include <scree/level_set/node_search.h>
 
 #include <algorithm>
@@ -133,9 +138,9 @@ TEST(LevelSetFromShape, CombinationsKeepTheirArea)
   const double r = 0.6, d = 0.6;
   const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
   const double disc = M_PI * r * r;
-  for (const auto &[type, exact] : {std::make_pair(ShapeType::union_of, 2 * disc - lens),
-                                    std::make_pair(ShapeType::intersection, lens),
-                                    std::make_pair(ShapeType::difference, disc - lens)})
+  for (const auto &[type, exact] : {std::make_pair(Combination::union_of, 2 * disc - lens),
+                                    std::make_pair(Combination::intersection, lens),
+                                    std::make_pair(Combination::difference, disc - lens)})
     {
       const auto lattice = lattice_of<2>(CombinedShape<2>(type, parts()), frame<2>(0.02, 2), 0.2);
       EXPECT_NEAR(area(lattice), exact, 3e-3 * exact);

@@ -1,8 +1,15 @@
 // Smooth pieces: those near a box, their normals, and those active at faces, edges and corners.
 #include <gtest/gtest.h>
 
-#include <scree/geometry/composed_shapes.h>
-#include <scree/geometry/simple_shapes.h>
+#include <scree/geometry/ball.h>
+#include <scree/geometry/box.h>
+#include <scree/geometry/combined_shape.h>
+#include <scree/geometry/ellipse.h>
+#include <scree/geometry/expression_shape.h>
+#include <scree/geometry/moved_shape.h>
+#include <scree/geometry/polygon.h>
+#include <scree/geometry/ring.h>
+#include <scree/geometry/superellipse.h>
 
 #include <cmath>
 
@@ -55,7 +62,7 @@ TEST(Pieces, OfComposedAndMovedShapes)
   std::vector<ShapePointer<2>> parts;
   parts.push_back(std::make_unique<Box<2>>(Point<2>(-1., -1.), Point<2>(1., 1.)));
   parts.push_back(std::make_unique<Ball<2>>(Point<2>(1., 0.), 0.5));
-  auto notched = std::make_unique<CombinedShape<2>>(ShapeType::difference, std::move(parts));
+  auto notched = std::make_unique<CombinedShape<2>>(Combination::difference, std::move(parts));
   const double        angle = 0.3, c = std::cos(angle), s = std::sin(angle);
   Tensor<2, 2>        R({{c, -s}, {s, c}});
   Tensor<1, 2>        shift({0.2, -0.1});
@@ -82,13 +89,14 @@ TEST(Pieces, OfExpressions)
   EXPECT_EQ(extremum_arguments("max(x, y) + max(x, 1)"), Texts({"max(x, y) + max(x, 1)"}));
   EXPECT_EQ(extremum_arguments(" x^2 + 1 "), Texts({"x^2 + 1"}));
   ShapeParameters<2> parameters;
-  parameters.type       = ShapeType::expression;
-  parameters.expression = "max(100*(x - 1), -y)";
-  const auto shape      = make_shape(parameters);
+  parameters.type                             = "expression";
+  parameters.values["Expression"]             = std::string("max(100*(x - 1), -y)");
+  parameters.values["Expression is distance"] = false;
+  const auto shape                            = make_shape(parameters);
   EXPECT_FALSE(shape->is_smooth());
   EXPECT_EQ(n_active<2>(*shape, Point<2>(1., 0.)), 2u);
   EXPECT_EQ(n_active<2>(*shape, Point<2>(1., 1.)), 1u);
-  parameters.expression = "x^2 + y^2 - 1";
+  parameters.values["Expression"] = std::string("x^2 + y^2 - 1");
   EXPECT_TRUE(make_shape(parameters)->is_smooth());
 }
 

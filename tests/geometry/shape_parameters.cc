@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/geometry/shape.h>
+#include <scree/geometry/shape_family.h>
 #include <scree/parameters/file.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace scree
@@ -178,9 +180,40 @@ TEST(ShapeParameters, WrittenBackTheyReadTheSame)
   ShapeParameters<2> again;
   again.declare(again_file.root());
   EXPECT_NO_THROW(again_file.check());
-  EXPECT_EQ(again.type, ShapeType::box);
-  EXPECT_EQ(again.upper_corner, parameters.upper_corner);
+  EXPECT_EQ(again.type, "box");
+  EXPECT_EQ(again.coordinates("Upper corner"), parameters.coordinates("Upper corner"));
   EXPECT_EQ(again.rotation_angle, 30);
+}
+
+// Types are told apart, and a key holds the same kind of value and sign in all families.
+TEST(ShapeFamilies, AgreeOnTypesAndSharedEntries)
+{
+  std::set<std::string>             types;
+  std::map<std::string, ShapeEntry> entries;
+  for (const auto &family : registered_shapes<2>())
+    {
+      for (const std::string &type : family.types)
+        EXPECT_TRUE(types.insert(type).second) << type;
+      for (const ShapeEntry &entry : family.entries)
+        {
+          const ShapeEntry &first = entries.emplace(entry.key, entry).first->second;
+          EXPECT_EQ(first.unset.index(), entry.unset.index()) << entry.key;
+          EXPECT_EQ(first.is_positive, entry.is_positive) << entry.key;
+          EXPECT_EQ(first.unit, entry.unit) << entry.key;
+        }
+    }
+}
+
+// Families that share an entry are named together, in the order of the registry.
+TEST(ShapeFamilies, DocumentSharedEntriesTogether)
+{
+  ParameterFile      file = ParameterFile::documentation();
+  ShapeParameters<2> parameters;
+  parameters.declare(file.root().subsection("Shape", "A shape."));
+  std::ostringstream text;
+  file.write_markdown(text);
+  expect_contains(text.str(), "Centre of a disc, ellipse, ring or superellipse [length].");
+  expect_contains(text.str(), "Radius of a disc or capsule, outer radius of a ring [length].");
 }
 
 TEST(ShapeParameters, DocumentationEnds)

@@ -1,7 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <scree/geometry/composed_shapes.h>
-#include <scree/geometry/simple_shapes.h>
+#include <scree/geometry/ball.h>
+#include <scree/geometry/box.h>
+#include <scree/geometry/capsule.h>
+#include <scree/geometry/combined_shape.h>
+#include <scree/geometry/ellipse.h>
+#include <scree/geometry/expression_shape.h>
+#include <scree/geometry/half_space.h>
+#include <scree/geometry/moved_shape.h>
+#include <scree/geometry/polygon.h>
+#include <scree/geometry/ring.h>
+#include <scree/geometry/superellipse.h>
 
 #include <cmath>
 #include <functional>
@@ -319,8 +328,8 @@ TEST(Shapes, CombinationsFollowSetAlgebra)
     result.push_back(std::make_unique<Ball<2>>(Point<2>(0.8, 0), 0.7));
     return result;
   };
-  const CombinedShape<2> both(ShapeType::union_of, parts()),
-    common(ShapeType::intersection, parts()), rest(ShapeType::difference, parts());
+  const CombinedShape<2> both(Combination::union_of, parts()),
+    common(Combination::intersection, parts()), rest(Combination::difference, parts());
   const auto both_parts = parts();
   for (const Point<2> &x : scattered_points<2>(2000, 1.6))
     {

@@ -2,7 +2,7 @@
 
 #include <scree/bodies/boundary_condition.h>
 #include <scree/bodies/rigid_body.h>
-#include <scree/geometry/shape.h>
+#include <scree/geometry/shape_parameters.h>
 #include <scree/level_set/extended_increment.h>
 #include <scree/material/increment_law.h>
 #include <scree/parameters/section.h>

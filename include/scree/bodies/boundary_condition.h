@@ -2,7 +2,7 @@
 
 #include <scree/base/enum_names.h>
 #include <scree/base/expression.h>
-#include <scree/parameters/section.h>
+#include <scree/bodies/condition_kind.h>
 
 #include <array>
 #include <limits>
@@ -11,23 +11,6 @@
 
 namespace scree
 {
-/** What a boundary condition prescribes. */
-enum class ConditionType
-{
-  /** displacement components, u_i = value_i(x, t) */
-  displacement,
-  /** traction vector t(x, t), force per area of the undeformed surface */
-  traction,
-  /** pressure p(x, t) along the inward normal, t = -p n */
-  pressure,
-  /** springs to the ground, t_i = -k_i u_i */
-  springs,
-  /** displacement components of the grid vertex at a point of a body clipped by the box */
-  point_support,
-  /** mean of displacement components or of the rotation over a region, by multipliers */
-  mean_support
-};
-
 /** How a displacement is imposed. */
 enum class DisplacementMethod
 {
@@ -41,23 +24,28 @@ enum class DisplacementMethod
   penalty
 };
 
-extern const EnumNames<ConditionType>      condition_type_names;
 extern const EnumNames<DisplacementMethod> displacement_method_names;
 
 /** Parameters of one named boundary condition of a body. */
 template <int dim>
 struct BoundaryConditionParameters
 {
-  ConditionType            type  = ConditionType::displacement;
-  std::string              on    = "surface";   //!< "x-" ... "z+" or "surface"
-  std::string              where = "1";         //!< expression that selects
-  std::vector<std::string> components;          //!< of x, y, z (and rotation for mean supports)
-  std::string              value          = ""; //!< one expression per component
+  std::string              type  = "displacement"; //!< a ConditionKind
+  std::string              on    = "surface";      //!< "x-" ... "z+" or "surface"
+  std::string              where = "1";            //!< expression that selects
+  std::vector<std::string> components;             //!< of x, y, z (and rotation for mean supports)
+  std::string              value          = "";    //!< one expression per component
   DisplacementMethod       method         = DisplacementMethod::automatic;
   double                   penalty_factor = 20.; //!< beta = factor k^2 (2 mu + lambda)/h
   dealii::Point<dim>       point;                //!< of a point support
 
   void declare(ParameterSection &section);
+
+  /** On the surface and not restricted by Where. */
+  bool is_all_around() const
+  {
+    return on == "surface" && where == "1";
+  }
 };
 
 /**
@@ -99,15 +87,45 @@ public:
    */
   double value(const unsigned int index, const dealii::Point<dim> &point, const double time) const;
 
+  const ConditionKind<dim> &kind() const
+  {
+    return *of_kind;
+  }
+
+  /** Whether it prescribes displacement components on a part of the surface. */
+  bool prescribes_displacement() const
+  {
+    return of_kind->imposition == Imposition::displacement;
+  }
+
   /** Whether the displacement is imposed on the unknowns of a box face. */
   bool is_strong() const
   {
-    return parameters.type == ConditionType::displacement && box_face != no_face
+    return prescribes_displacement() && box_face != no_face
            && parameters.method == DisplacementMethod::automatic;
   }
 
+  /** Whether the displacement of a vertex is prescribed, on its unknowns. */
+  bool is_at_vertex() const
+  {
+    return of_kind->imposition == Imposition::vertex;
+  }
+
+  /** How many multipliers hold means over the region. */
+  unsigned int n_multipliers() const
+  {
+    return of_kind->imposition == Imposition::mean ? components.size() : 0;
+  }
+
+  /** Whether the body needs forces to move against it; if not it is a load. */
+  bool resists_motion() const
+  {
+    return of_kind->imposition != Imposition::traction || of_kind->law.resists_motion;
+  }
+
 private:
-  Expression<dim> region;
-  Expression<dim> values;
+  const ConditionKind<dim> *of_kind;
+  Expression<dim>           region;
+  Expression<dim>           values;
 };
 } // namespace scree

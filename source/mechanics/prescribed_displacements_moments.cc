@@ -1,5 +1,5 @@
 #include <scree/mechanics/boundary_coverage.h>
-#include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/prescribed_displacements.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,7 +11,7 @@ namespace scree
 {
 template <int dim>
 double
-BoundaryTerms<dim>::flow_ratio(const unsigned int active_cell) const
+PrescribedDisplacements<dim>::flow_ratio(const unsigned int active_cell) const
 {
   // Enough for the flux of a body that is unloaded and elastic again.
   constexpr double smallest = 0.1;
@@ -20,7 +20,8 @@ BoundaryTerms<dim>::flow_ratio(const unsigned int active_cell) const
 
 template <int dim>
 double
-BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const unsigned int q) const
+PrescribedDisplacements<dim>::pointwise_share(const BoundaryRegion<dim> &region,
+                                              const unsigned int         q) const
 {
   if (region.condition->parameters.method == DisplacementMethod::penalty)
     return 1.;
@@ -33,28 +34,28 @@ BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &region, const uns
 
 template <int dim>
 void
-BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &level_set_nodes)
+PrescribedDisplacements<dim>::release_edges()
 {
   constexpr double largest = 0.5; // plastic strain beyond the elastic
   const auto       flows   = [&](const BoundaryPoint<dim> &point) {
     return bulk.secant_ratio(point.active_cell) < largest;
   };
-  std::vector<unsigned int> is_found(boundary_regions.size());
-  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+  auto                     &regions = setting.regions;
+  std::vector<unsigned int> is_found(regions.size());
+  for (const unsigned int r : own_regions)
     {
-      const auto &region    = boundary_regions[r];
-      const bool  has_edges = region.condition->parameters.where != "1";
-      is_found[r]           = is_nitsche(region) && has_edges
-                    && std::any_of(region.points.begin(), region.points.end(), flows);
+      const bool has_edges = regions[r].condition->parameters.where != "1";
+      is_found[r]          = is_nitsche(regions[r]) && has_edges
+                    && std::any_of(regions[r].points.begin(), regions[r].points.end(), flows);
     }
   dealii::Utilities::MPI::max(is_found, fields.grid.communicator(), is_found);
   // The first region of each body at once, then the second ones: bodies share no cells.
   std::vector<std::vector<unsigned int>> rounds;
   std::vector<unsigned int>              n_of_body(bodies.size());
-  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+  for (const unsigned int r : own_regions)
     if (is_found[r])
       {
-        const unsigned int round = n_of_body[boundary_regions[r].body]++;
+        const unsigned int round = n_of_body[regions[r].body]++;
         rounds.resize(std::max<std::size_t>(rounds.size(), round + 1));
         rounds[round].push_back(r);
       }
@@ -62,12 +63,12 @@ BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &level_set_nodes)
     {
       std::vector<double> covered(fields.n_owned_cells(), 0.);
       for (const unsigned int r : round)
-        set_coverage(fields, level_set_nodes, bodies[boundary_regions[r].body], boundary_regions[r],
-                     *start, covered);
+        set_coverage(fields, setting.level_set_nodes, bodies[regions[r].body], regions[r], *start,
+                     covered);
       const auto is_outer = outer_edge(fields, covered);
       for (const unsigned int r : round)
         {
-          auto &points = boundary_regions[r].points;
+          auto &points = regions[r].points;
           points.erase(std::remove_if(points.begin(), points.end(),
                                       [&](const BoundaryPoint<dim> &point) {
                                         return is_outer[point.active_cell] && flows(point);
@@ -79,10 +80,11 @@ BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &level_set_nodes)
 
 template <int dim>
 void
-BoundaryTerms<dim>::forgive_flow(const double start_time)
+PrescribedDisplacements<dim>::forgive_flow()
 {
-  for (auto &region : boundary_regions)
+  for (const unsigned int r : own_regions)
     {
+      auto       &region    = setting.regions[r];
       const auto &condition = *region.condition;
       if (!is_nitsche(region))
         continue;
@@ -91,24 +93,23 @@ BoundaryTerms<dim>::forgive_flow(const double start_time)
           for (unsigned int k = 0; k < condition.components.size(); ++k)
             {
               double &u_n = point.start_displacement[condition.components[k]];
-              u_n
-                += (1. - ratio) * (condition.value(k, point.reference_position, start_time) - u_n);
+              u_n += (1. - ratio)
+                     * (condition.value(k, point.reference_position, setting.start_time) - u_n);
             }
     }
 }
 
 template <int dim>
 void
-BoundaryTerms<dim>::find_moments()
+PrescribedDisplacements<dim>::find_moments()
 {
   std::vector<dealii::Point<dim>> points;
   std::vector<double>             weights;
-  for (unsigned int r = 0; r < boundary_regions.size(); ++r)
+  moments_of_point.resize(setting.regions.size());
+  for (const unsigned int r : own_regions)
     {
-      const auto &region = boundary_regions[r];
-      moments_of_point.emplace_back(region.points.size(), -1);
-      if (region.condition->parameters.type != ConditionType::displacement)
-        continue;
+      const auto &region = this->region(r);
+      moments_of_point[r].assign(region.points.size(), -1);
       for (unsigned int begin = 0, end = 0; begin < region.points.size(); begin = end)
         {
           const unsigned int cell = region.points[begin].active_cell;
@@ -133,9 +134,9 @@ BoundaryTerms<dim>::find_moments()
 
 template <int dim>
 std::vector<double>
-BoundaryTerms<dim>::moment_row(const NormalMoments &moments, const unsigned int m) const
+PrescribedDisplacements<dim>::moment_row(const NormalMoments &moments, const unsigned int m) const
 {
-  const auto         &region = boundary_regions[moments.region];
+  const auto         &region = this->region(moments.region);
   const unsigned int  n      = fields.basis.n_nodes;
   std::vector<double> row(n * dim, 0.), shape(n);
   for (unsigned int q = moments.begin; q < moments.end; ++q)
@@ -152,10 +153,10 @@ BoundaryTerms<dim>::moment_row(const NormalMoments &moments, const unsigned int 
 
 template <int dim>
 double
-BoundaryTerms<dim>::prescribed_moment(const NormalMoments &moments, const unsigned int m,
-                                      const double time) const
+PrescribedDisplacements<dim>::prescribed_moment(const NormalMoments &moments, const unsigned int m,
+                                                const double time) const
 {
-  const auto &region = boundary_regions[moments.region];
+  const auto &region = this->region(moments.region);
   double      sum    = 0.;
   for (unsigned int q = moments.begin; q < moments.end; ++q)
     {
@@ -174,7 +175,8 @@ BoundaryTerms<dim>::prescribed_moment(const NormalMoments &moments, const unsign
 
 template <int dim>
 void
-BoundaryTerms<dim>::add_moments_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+PrescribedDisplacements<dim>::add_moments_to_matrix(
+  dealii::TrilinosWrappers::SparseMatrix &matrix) const
 {
   const unsigned int         n = fields.basis.n_nodes * dim;
   dealii::FullMatrix<double> block(n, n);
@@ -188,7 +190,7 @@ BoundaryTerms<dim>::add_moments_to_matrix(dealii::TrilinosWrappers::SparseMatrix
             for (unsigned int j = 0; j < n; ++j)
               block(i, j) += moments.stiffness * row[i] * row[j];
         }
-      const unsigned int cell = boundary_regions[moments.region].points[moments.begin].active_cell;
+      const unsigned int cell = this->region(moments.region).points[moments.begin].active_cell;
       fields.hanging_constraints().distribute_local_to_global(
         block, unknowns_of_nodes<dim>(fields.nodes(cell), fields.basis.n_nodes), matrix);
     }
@@ -196,7 +198,7 @@ BoundaryTerms<dim>::add_moments_to_matrix(dealii::TrilinosWrappers::SparseMatrix
 
 template <int dim>
 void
-BoundaryTerms<dim>::add_moment_loads(Vector &loads, const double time) const
+PrescribedDisplacements<dim>::add_moment_loads(Vector &loads, const double time) const
 {
   const unsigned int     n = fields.basis.n_nodes * dim;
   dealii::Vector<double> load(n);
@@ -210,7 +212,7 @@ BoundaryTerms<dim>::add_moment_loads(Vector &loads, const double time) const
           for (unsigned int i = 0; i < n; ++i)
             load(i) += value * row[i];
         }
-      const unsigned int cell = boundary_regions[moments.region].points[moments.begin].active_cell;
+      const unsigned int cell = this->region(moments.region).points[moments.begin].active_cell;
       fields.hanging_constraints().distribute_local_to_global(
         load, unknowns_of_nodes<dim>(fields.nodes(cell), fields.basis.n_nodes), loads);
     }
@@ -218,14 +220,15 @@ BoundaryTerms<dim>::add_moment_loads(Vector &loads, const double time) const
 
 template <int dim>
 dealii::Tensor<1, dim>
-BoundaryTerms<dim>::moment_traction(const BoundaryRegion<dim> &region, const unsigned int q,
-                                    const Vector &u, const double time) const
+PrescribedDisplacements<dim>::moment_traction(const unsigned int index, const unsigned int q,
+                                              const Vector &u, const double time) const
 {
   dealii::Tensor<1, dim> traction;
-  const int              index = moments_of_point[&region - boundary_regions.data()][q];
-  if (index < 0)
+  const int              of_point = moments_of_point[index][q];
+  if (of_point < 0)
     return traction;
-  const NormalMoments &moments = normal_moments[index];
+  const NormalMoments &moments = normal_moments[of_point];
+  const auto          &region  = this->region(index);
   const auto          &point   = region.points[q];
   const DofIndex      *nodes   = fields.nodes(point.active_cell);
   const auto           psi     = moments.modes(point.unit_point);
@@ -243,18 +246,18 @@ BoundaryTerms<dim>::moment_traction(const BoundaryRegion<dim> &region, const uns
   return traction;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                      \
-  template double BoundaryTerms<dim>::flow_ratio(const unsigned int) const;         \
-  template void   BoundaryTerms<dim>::release_edges(const LevelSetNodes<dim> &);    \
-  template void   BoundaryTerms<dim>::forgive_flow(const double);                   \
-  template double BoundaryTerms<dim>::pointwise_share(const BoundaryRegion<dim> &,  \
-                                                      const unsigned int) const;    \
-  template void   BoundaryTerms<dim>::find_moments();                               \
-  template void   BoundaryTerms<dim>::add_moments_to_matrix(                        \
-      dealii::TrilinosWrappers::SparseMatrix &) const;                              \
-  template void BoundaryTerms<dim>::add_moment_loads(Vector &, const double) const; \
-  template dealii::Tensor<1, dim> BoundaryTerms<dim>::moment_traction(              \
-    const BoundaryRegion<dim> &, const unsigned int, const Vector &, const double) const;
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template double PrescribedDisplacements<dim>::flow_ratio(const unsigned int) const;         \
+  template void   PrescribedDisplacements<dim>::release_edges();                              \
+  template void   PrescribedDisplacements<dim>::forgive_flow();                               \
+  template double PrescribedDisplacements<dim>::pointwise_share(const BoundaryRegion<dim> &,  \
+                                                                const unsigned int) const;    \
+  template void   PrescribedDisplacements<dim>::find_moments();                               \
+  template void   PrescribedDisplacements<dim>::add_moments_to_matrix(                        \
+      dealii::TrilinosWrappers::SparseMatrix &) const;                                        \
+  template void PrescribedDisplacements<dim>::add_moment_loads(Vector &, const double) const; \
+  template dealii::Tensor<1, dim> PrescribedDisplacements<dim>::moment_traction(              \
+    const unsigned int, const unsigned int, const Vector &, const double) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <scree/geometry/shape_family.h>
+
+namespace scree
+{
+/** An axis-aligned box between two corners. */
+template <int dim>
+class Box : public Shape<dim>
+{
+public:
+  static ShapeFamily<dim> family();
+
+  Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
+
+  double signed_distance(const dealii::Point<dim> &x) const override;
+
+  dealii::BoundingBox<dim> bounding_box() const override;
+
+  bool is_smooth() const override;
+
+  void append_pieces(const dealii::BoundingBox<dim> &box,
+                     std::vector<SmoothPiece<dim>>  &pieces) const override;
+
+private:
+  dealii::Point<dim> lower, upper;
+};
+} // namespace scree

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <scree/mechanics/boundary_regions.h>
+#include <scree/mechanics/bulk.h>
+#include <scree/mechanics/resultant.h>
+
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+/** What boundary terms refer to. */
+template <int dim>
+struct BoundarySetting
+{
+  const Fields<dim>                &fields;
+  const LevelSetNodes<dim>         &level_set_nodes;
+  const std::vector<Body<dim>>     &bodies;
+  const Bulk<dim>                  &bulk;       //!< stresses see its projected volume changes
+  double                            start_time; //!< of the step, on a moving geometry
+  std::vector<BoundaryRegion<dim>> &regions;    //!< of all terms
+
+  /** The start of the step, null on a fixed geometry. */
+  const StepStart<dim> *start() const
+  {
+    return bulk.step_start();
+  }
+};
+
+/**
+ * The part of the conditions of one Imposition in the equations: what is linear in u as a matrix
+ * and loads, and on a moving geometry what is not as forces and their derivative. Vectors u are
+ * ghosted.
+ */
+template <int dim>
+class BoundaryTerm
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /** @param own_regions its indices of setting.regions */
+  BoundaryTerm(const BoundarySetting<dim> &setting, const std::vector<unsigned int> &own_regions);
+
+  virtual ~BoundaryTerm() = default;
+
+  virtual void add_to_matrix(Matrix &matrix) const = 0;
+
+  /** Adds the dead loads and what is prescribed, each if asked for. */
+  virtual void add_loads(Vector &loads, const double time, const bool dead_loads,
+                         const bool prescribed) const = 0;
+
+  /** Adds what is not linear on a moving geometry. */
+  virtual void add_internal_forces(const Vector &u, const double time, Vector &forces) const;
+
+  /** Adds its derivative. */
+  virtual void add_tangent(const Vector &u, const double time, Matrix &matrix) const;
+
+  /** Whether matrix and tangent are symmetric. */
+  virtual bool is_symmetric() const;
+
+  /** Unknowns that couple, beyond those of a cell. */
+  virtual std::vector<std::vector<DofIndex>> couplings() const;
+
+  /** Tractions on the body at the points of an own region; zero unless overridden. */
+  virtual std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int region, const Vector &u,
+                                                        const double time) const;
+
+  /** Resultant of the multipliers of an own region that are owned. */
+  virtual Resultant<dim> resultant_of_multipliers(const unsigned int region, const Vector &u) const;
+
+  /** Stored energy on this process. */
+  virtual double energy(const Vector &u, const double time) const;
+
+protected:
+  const BoundaryRegion<dim> &region(const unsigned int index) const
+  {
+    return setting.regions[index];
+  }
+
+  /** The displacement unknowns of the cell of a point. */
+  std::vector<DofIndex> unknowns(const BoundaryPoint<dim> &point) const;
+
+  const BoundarySetting<dim>      setting;
+  const Fields<dim>              &fields;
+  const std::vector<unsigned int> own_regions;
+};
+
+/** Displacement since the beginning, u_n + u, at a point; u ghosted. */
+template <int dim>
+dealii::Tensor<1, dim> displacement_at(const Fields<dim> &fields, const BoundaryPoint<dim> &point,
+                                       const dealii::TrilinosWrappers::MPI::Vector &u);
+
+/** The term of an imposition; null if it acts on unknowns only (StrongSupports). */
+template <int dim>
+std::unique_ptr<BoundaryTerm<dim>> make_boundary_term(const Imposition                 imposition,
+                                                      const BoundarySetting<dim>      &setting,
+                                                      const std::vector<unsigned int> &own_regions);
+} // namespace scree

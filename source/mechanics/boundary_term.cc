@@ -1,0 +1,113 @@
+#include <scree/mechanics/mean_supports.h>
+#include <scree/mechanics/prescribed_displacements.h>
+#include <scree/mechanics/surface_tractions.h>
+
+namespace scree
+{
+template <int dim>
+BoundaryTerm<dim>::BoundaryTerm(const BoundarySetting<dim>      &setting,
+                                const std::vector<unsigned int> &own_regions)
+    : setting(setting)
+    , fields(setting.fields)
+    , own_regions(own_regions)
+{
+}
+
+template <int dim>
+void
+BoundaryTerm<dim>::add_internal_forces(const Vector &, const double, Vector &) const
+{
+}
+
+template <int dim>
+void
+BoundaryTerm<dim>::add_tangent(const Vector &, const double, Matrix &) const
+{
+}
+
+template <int dim>
+bool
+BoundaryTerm<dim>::is_symmetric() const
+{
+  return true;
+}
+
+template <int dim>
+std::vector<std::vector<DofIndex>>
+BoundaryTerm<dim>::couplings() const
+{
+  return {};
+}
+
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+BoundaryTerm<dim>::tractions(const unsigned int index, const Vector &, const double) const
+{
+  return std::vector<dealii::Tensor<1, dim>>(region(index).points.size());
+}
+
+template <int dim>
+Resultant<dim>
+BoundaryTerm<dim>::resultant_of_multipliers(const unsigned int, const Vector &) const
+{
+  return {};
+}
+
+template <int dim>
+double
+BoundaryTerm<dim>::energy(const Vector &, const double) const
+{
+  return 0.;
+}
+
+template <int dim>
+std::vector<DofIndex>
+BoundaryTerm<dim>::unknowns(const BoundaryPoint<dim> &point) const
+{
+  return unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes);
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+displacement_at(const Fields<dim> &fields, const BoundaryPoint<dim> &point,
+                const dealii::TrilinosWrappers::MPI::Vector &u)
+{
+  ShapeValues<dim>       shape;
+  dealii::Tensor<1, dim> result = point.start_displacement;
+  fields.basis.evaluate(point.unit_point, shape);
+  const DofIndex *nodes = fields.nodes(point.active_cell);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] += u(nodes[a] + d) * shape.value[a];
+  return result;
+}
+
+template <int dim>
+std::unique_ptr<BoundaryTerm<dim>>
+make_boundary_term(const Imposition imposition, const BoundarySetting<dim> &setting,
+                   const std::vector<unsigned int> &own_regions)
+{
+  switch (imposition)
+    {
+    case Imposition::traction:
+      return std::make_unique<SurfaceTractions<dim>>(setting, own_regions);
+    case Imposition::displacement:
+      return std::make_unique<PrescribedDisplacements<dim>>(setting, own_regions);
+    case Imposition::mean:
+      return std::make_unique<MeanSupports<dim>>(setting, own_regions);
+    case Imposition::vertex:
+      break;
+    }
+  return nullptr;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template class BoundaryTerm<dim>;                                                                \
+  template dealii::Tensor<1, dim> displacement_at(const Fields<dim> &, const BoundaryPoint<dim> &, \
+                                                  const BoundaryTerm<dim>::Vector &);              \
+  template std::unique_ptr<BoundaryTerm<dim>> make_boundary_term(                                  \
+    const Imposition, const BoundarySetting<dim> &, const std::vector<unsigned int> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

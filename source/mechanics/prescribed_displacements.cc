@@ -1,0 +1,231 @@
+#include <scree/mechanics/prescribed_displacements.h>
+
+#include <algorithm>
+
+namespace scree
+{
+template <int dim>
+PrescribedDisplacements<dim>::PrescribedDisplacements(const BoundarySetting<dim>      &setting,
+                                                      const std::vector<unsigned int> &own_regions)
+    : BoundaryTerm<dim>(setting, own_regions)
+    , bodies(setting.bodies)
+    , bulk(setting.bulk)
+    , start(setting.start())
+{
+  if (start)
+    release_edges();
+  find_moments();
+  if (start)
+    {
+      forgive_flow();
+      find_starts();
+    }
+}
+
+template <int dim>
+bool
+PrescribedDisplacements<dim>::is_nitsche(const BoundaryRegion<dim> &region) const
+{
+  return region.condition->parameters.method != DisplacementMethod::penalty;
+}
+
+template <int dim>
+double
+PrescribedDisplacements<dim>::adjoint_factor(const BoundaryRegion<dim> &region,
+                                             const BoundaryPoint<dim>  &point) const
+{
+  const auto method = region.condition->parameters.method;
+  return (method == DisplacementMethod::nonsymmetric_nitsche ? 1. : -1.)
+         * flow_ratio(point.active_cell);
+}
+
+template <int dim>
+double
+PrescribedDisplacements<dim>::beta(const BoundaryRegion<dim> &region, const unsigned int q) const
+{
+  const ActiveCell &cell = fields.cells()[region.points[q].active_cell];
+  const double      k    = fields.basis.degree;
+  return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
+         * bodies[region.body].material->p_wave_modulus()
+         / fields.grid.cells()[cell.grid_cell].size;
+}
+
+template <int dim>
+void
+PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>           &region,
+                                             const BoundaryPoint<dim>            &point,
+                                             ShapeValues<dim>                    &shape,
+                                             std::vector<dealii::Tensor<1, dim>> &vectors) const
+{
+  const auto  &material = *bodies[region.body].material;
+  const double lambda = material.lame_lambda(), mu = material.shear_modulus();
+  const double scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
+  const auto  &n     = point.normal;
+  fields.basis.evaluate(point.unit_point, shape);
+  vectors.resize(fields.basis.n_nodes * dim);
+  std::vector<double> divergence;
+  const double        projected
+    = bulk.projected_divergence(point.active_cell, point.unit_point, divergence)
+        ? bulk.projected_lambda(region.body)
+        : 0.;
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    {
+      const dealii::Tensor<1, dim> g  = scale * shape.gradient[a];
+      const double                 gn = g * n;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          // sigma = lambda div I + mu (e_i g + g e_i)
+          const double volumetric = (lambda - projected) * g[i]
+                                    + (projected > 0. ? projected * divergence[a * dim + i] : 0.);
+          dealii::Tensor<1, dim> vector = volumetric * n + mu * n[i] * g;
+          vector[i] += mu * gn;
+          vectors[a * dim + i] = vector;
+        }
+    }
+}
+
+template <int dim>
+void
+PrescribedDisplacements<dim>::add_to_matrix(Matrix &matrix) const
+{
+  const unsigned int                  n = fields.basis.n_nodes;
+  ShapeValues<dim>                    shape;
+  std::vector<dealii::Tensor<1, dim>> stress;
+  dealii::FullMatrix<double>          block;
+  for (const unsigned int r : own_regions)
+    for (unsigned int q = 0; q < this->region(r).points.size(); ++q)
+      {
+        const auto &region = this->region(r);
+        const auto &point  = region.points[q];
+        block.reinit(n * dim, n * dim);
+        stress_vectors(region, point, shape, stress);
+        const double adjoint   = adjoint_factor(region, point);
+        const double stiffness = beta(region, q);
+        for (const unsigned int c : region.condition->components)
+          {
+            for (unsigned int a = 0; a < n; ++a)
+              for (unsigned int b = 0; b < n; ++b)
+                block(a * dim + c, b * dim + c)
+                  += point.weight * stiffness * shape.value[a] * shape.value[b];
+            for (unsigned int a = 0; is_nitsche(region) && a < n; ++a)
+              for (unsigned int j = 0; j < n * dim; ++j)
+                {
+                  const double entry = point.weight * shape.value[a] * stress[j][c];
+                  if (!start)
+                    block(a * dim + c, j) -= entry;
+                  block(j, a * dim + c) += adjoint * entry;
+                }
+          }
+        fields.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
+                                                                matrix);
+      }
+  add_moments_to_matrix(matrix);
+}
+
+template <int dim>
+void
+PrescribedDisplacements<dim>::add_loads(Vector &loads, const double time, const bool /*dead_loads*/,
+                                        const bool prescribed) const
+{
+  if (!prescribed)
+    return;
+  const unsigned int                  n = fields.basis.n_nodes;
+  ShapeValues<dim>                    shape;
+  std::vector<dealii::Tensor<1, dim>> stress;
+  dealii::Vector<double>              cell_load(n * dim);
+  for (const unsigned int r : own_regions)
+    for (unsigned int q = 0; q < this->region(r).points.size(); ++q)
+      {
+        const auto &region    = this->region(r);
+        const auto &condition = *region.condition;
+        const auto &point     = region.points[q];
+        cell_load             = 0.;
+        stress_vectors(region, point, shape, stress);
+        const double adjoint = is_nitsche(region) ? adjoint_factor(region, point) : 0.;
+        for (unsigned int k = 0; k < condition.components.size(); ++k)
+          {
+            const unsigned int c = condition.components[k];
+            const double       value
+              = condition.value(k, point.reference_position, time) - point.start_displacement[c];
+            for (unsigned int a = 0; a < n; ++a)
+              cell_load(a * dim + c) += point.weight * beta(region, q) * shape.value[a] * value;
+            for (unsigned int j = 0; j < n * dim; ++j)
+              cell_load(j) += adjoint * point.weight * stress[j][c] * value;
+          }
+        fields.hanging_constraints().distribute_local_to_global(cell_load, this->unknowns(point),
+                                                                loads);
+      }
+  add_moment_loads(loads, time);
+}
+
+template <int dim>
+bool
+PrescribedDisplacements<dim>::is_symmetric() const
+{
+  return std::none_of(own_regions.begin(), own_regions.end(), [&](const unsigned int r) {
+    const auto &region = this->region(r);
+    return (start && is_nitsche(region))
+           || region.condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche;
+  });
+}
+
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+PrescribedDisplacements<dim>::tractions(const unsigned int index, const Vector &u,
+                                        const double time) const
+{
+  const auto                         &region    = this->region(index);
+  const auto                         &condition = *region.condition;
+  std::vector<dealii::Tensor<1, dim>> result(region.points.size());
+  for (unsigned int q = 0; q < region.points.size(); ++q)
+    {
+      const auto                  &point        = region.points[q];
+      const dealii::Tensor<1, dim> displacement = displacement_at(fields, point, u);
+      dealii::Tensor<1, dim>       flux;
+      if (is_nitsche(region))
+        flux = stress_vector(index, q, u);
+      for (unsigned int k = 0; k < condition.components.size(); ++k)
+        {
+          const unsigned int c = condition.components[k];
+          result[q][c]
+            = flux[c]
+              - beta(region, q)
+                  * (displacement[c] - condition.value(k, point.reference_position, time));
+        }
+      result[q] += moment_traction(index, q, u, time);
+    }
+  return result;
+}
+
+template <int dim>
+double
+PrescribedDisplacements<dim>::energy(const Vector &u, const double time) const
+{
+  double sum = 0.;
+  for (const unsigned int r : own_regions)
+    {
+      const auto &region    = this->region(r);
+      const auto &condition = *region.condition;
+      const auto  t         = tractions(r, u, time);
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto                  &point        = region.points[q];
+          const dealii::Tensor<1, dim> displacement = displacement_at(fields, point, u);
+          const dealii::Tensor<1, dim> of_moments   = moment_traction(r, q, u, time);
+          for (unsigned int k = 0; k < condition.components.size(); ++k)
+            {
+              // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e, and half the
+              // work of the moments
+              const unsigned int c = condition.components[k];
+              const double e = displacement[c] - condition.value(k, point.reference_position, time);
+              sum -= point.weight
+                     * ((t[q][c] - 0.5 * of_moments[c]) * e + 0.5 * beta(region, q) * e * e);
+            }
+        }
+    }
+  return sum;
+}
+
+template class PrescribedDisplacements<2>;
+template class PrescribedDisplacements<3>;
+} // namespace scree

@@ -1,0 +1,191 @@
+#include <scree/mechanics/surface_tractions.h>
+
+#include <algorithm>
+
+namespace scree
+{
+template <int dim>
+bool
+SurfaceTractions<dim>::is_following(const unsigned int index) const
+{
+  return this->setting.start() != nullptr
+         && this->region(index).condition->kind().law.follows_surface;
+}
+
+template <int dim>
+std::vector<SurfaceTraction<dim>>
+SurfaceTractions<dim>::evaluate(const unsigned int index, const Vector *u, const double time) const
+{
+  const auto                           &fields   = this->fields;
+  const auto                           &region   = this->region(index);
+  const dealii::SymmetricTensor<2, dim> identity = dealii::unit_symmetric_tensor<dim>();
+  ShapeValues<dim>                      shape;
+  std::vector<SurfacePoint<dim>>        points;
+  for (const auto &point : region.points)
+    {
+      points.push_back({point.reference_position, point.normal, point.area_ratio,
+                        point.start_displacement, identity});
+      if (u == nullptr)
+        continue;
+      const double scale
+        = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
+      const DofIndex *nodes = fields.nodes(point.active_cell);
+      fields.basis.evaluate(point.unit_point, shape);
+      for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double value = (*u)(nodes[a] + d);
+            points.back().displacement[d] += value * shape.value[a];
+            if (this->setting.start() != nullptr)
+              points.back().increment[d] += value * (scale * shape.gradient[a]);
+          }
+    }
+  std::vector<SurfaceTraction<dim>> result(points.size());
+  region.condition->kind().law.evaluate(
+    *region.condition, dealii::ArrayView<const SurfacePoint<dim>>(points.data(), points.size()),
+    time, dealii::ArrayView<SurfaceTraction<dim>>(result.data(), result.size()));
+  return result;
+}
+
+template <int dim>
+void
+SurfaceTractions<dim>::add_integral(const unsigned int index, const double factor,
+                                    const std::vector<SurfaceTraction<dim>> &tractions,
+                                    Vector                                  &forces) const
+{
+  const unsigned int     n      = this->fields.basis.n_nodes;
+  const auto            &region = this->region(index);
+  ShapeValues<dim>       shape;
+  dealii::Vector<double> cell_forces(n * dim);
+  for (unsigned int q = 0; q < region.points.size(); ++q)
+    {
+      const auto &point = region.points[q];
+      this->fields.basis.evaluate(point.unit_point, shape);
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          cell_forces(a * dim + d)
+            = factor * point.weight * shape.value[a] * tractions[q].traction[d];
+      this->fields.hanging_constraints().distribute_local_to_global(cell_forces,
+                                                                    this->unknowns(point), forces);
+    }
+}
+
+template <int dim>
+void
+SurfaceTractions<dim>::add_to_matrix(Matrix &matrix) const
+{
+  const unsigned int         n = this->fields.basis.n_nodes;
+  ShapeValues<dim>           shape;
+  dealii::FullMatrix<double> block(n * dim, n * dim);
+  for (const unsigned int r : this->own_regions)
+    {
+      const auto &region = this->region(r);
+      if (!region.condition->resists_motion())
+        continue;
+      const auto tractions = evaluate(r, nullptr, 0.);
+      for (unsigned int q = 0; q < region.points.size(); ++q)
+        {
+          const auto &point = region.points[q];
+          this->fields.basis.evaluate(point.unit_point, shape);
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int b = 0; b < n; ++b)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  block(a * dim + c, b * dim + d) = -point.weight
+                                                    * tractions[q].by_displacement[c][d]
+                                                    * shape.value[a] * shape.value[b];
+          this->fields.hanging_constraints().distribute_local_to_global(
+            block, this->unknowns(point), matrix);
+        }
+    }
+}
+
+template <int dim>
+void
+SurfaceTractions<dim>::add_loads(Vector &loads, const double time, const bool dead_loads,
+                                 const bool prescribed) const
+{
+  for (const unsigned int r : this->own_regions)
+    if (!is_following(r) && (this->region(r).condition->resists_motion() ? prescribed : dead_loads))
+      add_integral(r, 1., evaluate(r, nullptr, time), loads);
+}
+
+template <int dim>
+void
+SurfaceTractions<dim>::add_internal_forces(const Vector &u, const double time, Vector &forces) const
+{
+  for (const unsigned int r : this->own_regions)
+    if (is_following(r))
+      add_integral(r, -1., evaluate(r, &u, time), forces);
+}
+
+template <int dim>
+void
+SurfaceTractions<dim>::add_tangent(const Vector &u, const double time, Matrix &matrix) const
+{
+  const unsigned int         n = this->fields.basis.n_nodes;
+  ShapeValues<dim>           shape;
+  dealii::FullMatrix<double> block(n * dim, n * dim);
+  for (const unsigned int r : this->own_regions)
+    {
+      if (!is_following(r))
+        continue;
+      const auto tractions = evaluate(r, &u, time);
+      for (unsigned int q = 0; q < tractions.size(); ++q)
+        {
+          const auto  &point = this->region(r).points[q];
+          const auto  &cell  = this->fields.cells()[point.active_cell];
+          const double scale = 1. / this->fields.grid.cells()[cell.grid_cell].size;
+          this->fields.basis.evaluate(point.unit_point, shape);
+          for (unsigned int b = 0; b < n; ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                const dealii::Tensor<1, dim> column
+                  = tractions[q].by_increment[i] * (scale * shape.gradient[b]);
+                for (unsigned int a = 0; a < n; ++a)
+                  for (unsigned int k = 0; k < dim; ++k)
+                    block(a * dim + i, b * dim + k) = -point.weight * shape.value[a] * column[k];
+              }
+          this->fields.hanging_constraints().distribute_local_to_global(
+            block, this->unknowns(point), matrix);
+        }
+    }
+}
+
+template <int dim>
+bool
+SurfaceTractions<dim>::is_symmetric() const
+{
+  return std::none_of(this->own_regions.begin(), this->own_regions.end(),
+                      [&](const unsigned int r) { return is_following(r); });
+}
+
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+SurfaceTractions<dim>::tractions(const unsigned int index, const Vector &u, const double time) const
+{
+  std::vector<dealii::Tensor<1, dim>> result;
+  for (const auto &point : evaluate(index, &u, time))
+    result.push_back(point.traction);
+  return result;
+}
+
+template <int dim>
+double
+SurfaceTractions<dim>::energy(const Vector &u, const double time) const
+{
+  double sum = 0.;
+  for (const unsigned int r : this->own_regions)
+    {
+      if (!this->region(r).condition->resists_motion())
+        continue;
+      const auto tractions = evaluate(r, &u, time);
+      for (unsigned int q = 0; q < tractions.size(); ++q)
+        sum += this->region(r).points[q].weight * tractions[q].energy;
+    }
+  return sum;
+}
+
+template class SurfaceTractions<2>;
+template class SurfaceTractions<3>;
+} // namespace scree
