@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/archive/archive_exception.hpp>
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <sstream>
@@ -40,7 +39,7 @@ Checkpoint<dim>::read(const std::string &directory, const MPI_Comm communicator)
       boost::archive::binary_iarchive archive(bytes);
       archive >> result;
     }
-  catch (const boost::archive::archive_exception &error)
+  catch (const std::exception &error) // of the archive, or lengths that cannot be
     {
       throw UserError(directory, std::string("the checkpoint is not understood: ") + error.what(),
                       "go on with the version of scree that wrote it (see log.txt)");
