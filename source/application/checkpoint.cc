@@ -54,7 +54,7 @@ require_resumable(const std::map<std::string, std::string> &before,
 {
   const auto may_change = [](const std::string &path) {
     const auto begins = [&path](const std::string &section) { return path.rfind(section, 0) == 0; };
-    return path == "Title" || begins("Time/") || begins("Solver/")
+    return path == "Title" || path == "Units" || begins("Time/") || begins("Solver/")
            || (begins("Output/") && !begins("Output/Probes/"));
   };
   const std::string remedy

@@ -219,7 +219,7 @@ check_polygon(const ShapeParameters<dim> &p, const ParameterSection &section)
   else if (!p.vertices.empty() && p.vertices.size() < 3)
     section.error("Vertices", "the polygon has " + std::to_string(p.vertices.size()) + " vertices",
                   "give at least 3, as in 0,0; 1,0; 1,1");
-  else if (Polygon::crosses_itself(p.vertices))
+  else if (!p.vertices.empty() && Polygon::crosses_itself(p.vertices))
     section.error("Vertices", "the sides of the polygon cross or touch each other",
                   "list the corners in order along the boundary, each once");
 }

@@ -1,3 +1,4 @@
+#include <scree/discretization/cell_cut.h>
 #include <scree/output/body_output.h>
 #include <scree/output/column_names.h>
 #include <scree/output/vtu_files.h>
@@ -289,22 +290,53 @@ BodyOutput<dim>::cut_rigid_body(const unsigned int body)
           corners.push_back(lattice.node(node));
           phi.push_back(lattice(node));
         }
-      if (corners.size() < dealii::GeometryInfo<dim>::vertices_per_cell)
-        continue;
-      const unsigned int n_inside
-        = std::count_if(phi.begin(), phi.end(), [](const double value) { return value < 0.; });
-      if (n_inside == corners.size())
-        rigid_pieces.push_back({body, corners});
-      else if (n_inside > 0)
-        for (const auto &vertices : clip_box(corners, phi))
-          rigid_pieces.push_back({body, vertices});
+      if (corners.size() == dealii::GeometryInfo<dim>::vertices_per_cell)
+        cut_rigid_cell(body, corners, phi);
     }
+}
+
+template <int dim>
+void
+BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
+                                const std::vector<dealii::Point<dim>> &corners,
+                                const std::vector<double>             &phi)
+{
+  const auto  &shape   = bodies[body].rigid->shape;
+  const double size    = corners[1][0] - corners[0][0];
+  const bool   is_near = std::any_of(phi.begin(), phi.end(), [&](const double value) {
+    return std::abs(value) < 2. * std::sqrt(double(dim)) * size;
+  });
+  CellCut<dim> cut;
+  if (shape && !shape->is_smooth() && is_near)
+    cut = cut_by_pieces(*shape, LagrangeBasis<dim>(1), corners, size);
+  else
+    {
+      nudge(phi.data(), phi.size(), size, cut.scaled.data());
+      cut.location = location_of(cut.scaled.data(), phi.size());
+    }
+  for (const auto &part : cut.parts)
+    for (auto &simplex : part.simplices())
+      {
+        for (auto &vertex : simplex)
+          vertex = corners[0] + size * dealii::Tensor<1, dim>(vertex);
+        orient<dim>(simplex);
+        rigid_pieces.push_back({body, simplex});
+      }
+  if (!cut.parts.empty() || cut.location == CellLocation::outside)
+    return;
+  if (cut.location == CellLocation::inside)
+    rigid_pieces.push_back({body, corners});
+  else
+    for (const auto &vertices :
+         clip_box(corners, {cut.scaled.begin(), cut.scaled.begin() + corners.size()}))
+      rigid_pieces.push_back({body, vertices});
 }
 
 template <int dim>
 std::string
 BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
-                       const std::string &directory, const unsigned int number) const
+                       const std::string &directory, const unsigned int number,
+                       const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   Patches<dim> output;
@@ -347,7 +379,9 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
   output.set_flags(flags);
   return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
-                         fields.grid.communicator());
+                         fields.grid.communicator(),
+                         field_datum("TimeValue", time)
+                           + field_datum("points_are_moved", bulk.step_start() ? 1. : 0.));
 }
 
 template class BodyOutput<2>;
