@@ -23,12 +23,12 @@ def draw(run, field, warp, is_raw):
     pictures = [BodyPicture(run, field, step, last.factor, is_raw) for step in steps]
     scale = min(p.limits[0] for p in pictures), max(p.limits[1] for p in pictures)
     box = np.min([p.deformed.min(axis=0) for p in pictures], axis=0), np.max([p.deformed.max(axis=0) for p in pictures], axis=0)
-    frames = [image_of(picture.draw(scale, tuple(corner[:2] for corner in box))) for picture in pictures]
+    frames = [image_of(picture.draw(scale, box)) for picture in pictures]
     # Layouts differ by a pixel or so with the length of labels.
     width, height = (min(frame.size[i] for frame in frames) // 2 * 2 for i in (0, 1))
     frames = [frame.crop((0, 0, width, height)) for frame in frames]
     path = run.directory / f"bodies_{field}.gif"
-    palette = [frame.quantize(128, dither=Image.Dither.NONE) for frame in frames]
+    palette = [frame.quantize(255, dither=Image.Dither.NONE) for frame in frames]
     palette[0].save(path, save_all=True, append_images=palette[1:], duration=max(40, 6000 // len(frames)), loop=0)
     return [path, *film(frames, run.directory / f"bodies_{field}.mp4")]
 

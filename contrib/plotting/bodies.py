@@ -144,7 +144,7 @@ class BodyPicture:
         if self.mesh.dim == 2:
             figure, axes, colours = draw_2d(self, scale, box)
         else:
-            figure, axes, colours = draw_surface(self.mesh, self.deformed, self.values, scale, self.shown)
+            figure, axes, colours = draw_surface(self.mesh, self.deformed, self.values, scale, self.shown, box)
         self.finish(figure, axes, colours)
         return figure
 
@@ -213,7 +213,7 @@ def section_plane(mesh, contact):
 
 def draw_2d(picture, scale, box):
     mesh, deformed = picture.mesh, picture.deformed[:, :2]
-    figure, axes = figure_for(deformed if box is None else np.stack(box))
+    figure, axes = figure_for(deformed if box is None else np.stack(box)[:, :2])
     triangles = mesh.triangles()
     coloured = picture.shown[triangles[:, 0]]
     colours = ScalarMappable(Normalize(*scale), "viridis")

@@ -1,4 +1,6 @@
 """Pictures of bodies in 3D: their surface and plane sections, drawn pixel by pixel with the nearest triangle in front."""
+import itertools
+
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize, to_rgba
@@ -121,13 +123,14 @@ def section_triangles(mesh, axis, position):
     return pairs, share
 
 
-def draw_surface(mesh, deformed, values, scale, shown=None, cmap="viridis"):
-    """The surface, grey where points are not `shown`, seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
+def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis"):
+    """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
     view = View()
     triangles = surface_triangles(mesh)
     plane, nearness = view.project(deformed)
     used = np.unique(triangles)
-    figure, axes = figure_for(plane[used])
+    corners = plane[used] if box is None else view.project(np.array(list(itertools.product(*zip(*box)))))[0]
+    figure, axes = figure_for(corners)
     axes.set_axis_off()
     raster = Raster(plane, nearness, triangles)
     a, b, c = (deformed[triangles[:, i]] for i in range(3))

@@ -214,10 +214,6 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
     : fields(fields)
     , bodies(bodies)
 {
-  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (bodies[b].is_rigid())
-        cut_rigid_body(b);
   const auto add_whole = [&](const unsigned int a) {
     Piece piece{a, {}};
     for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
@@ -272,8 +268,20 @@ BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<doub
 }
 
 template <int dim>
+std::vector<typename BodyOutput<dim>::RigidPiece>
+BodyOutput<dim>::cut_rigid_bodies() const
+{
+  std::vector<RigidPiece> pieces;
+  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_rigid())
+        cut_rigid_body(b, pieces);
+  return pieces;
+}
+
+template <int dim>
 void
-BodyOutput<dim>::cut_rigid_body(const unsigned int body)
+BodyOutput<dim>::cut_rigid_body(const unsigned int body, std::vector<RigidPiece> &pieces) const
 {
   const Lattice<dim> &lattice = bodies[body].rigid->picture;
   for (std::size_t i = 0; i < lattice.values().size(); ++i)
@@ -291,7 +299,7 @@ BodyOutput<dim>::cut_rigid_body(const unsigned int body)
           phi.push_back(lattice(node));
         }
       if (corners.size() == dealii::GeometryInfo<dim>::vertices_per_cell)
-        cut_rigid_cell(body, corners, phi);
+        cut_rigid_cell(body, corners, phi, pieces);
     }
 }
 
@@ -299,7 +307,8 @@ template <int dim>
 void
 BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
                                 const std::vector<dealii::Point<dim>> &corners,
-                                const std::vector<double>             &phi)
+                                const std::vector<double>             &phi,
+                                std::vector<RigidPiece>               &pieces) const
 {
   const auto  &shape   = bodies[body].rigid->shape;
   const double size    = corners[1][0] - corners[0][0];
@@ -320,16 +329,16 @@ BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
         for (auto &vertex : simplex)
           vertex = corners[0] + size * dealii::Tensor<1, dim>(vertex);
         orient<dim>(simplex);
-        rigid_pieces.push_back({body, simplex});
+        pieces.push_back({body, simplex});
       }
   if (!cut.parts.empty() || cut.location == CellLocation::outside)
     return;
   if (cut.location == CellLocation::inside)
-    rigid_pieces.push_back({body, corners});
+    pieces.push_back({body, corners});
   else
     for (const auto &vertices :
          clip_box(corners, {cut.scaled.begin(), cut.scaled.begin() + corners.size()}))
-      rigid_pieces.push_back({body, vertices});
+      pieces.push_back({body, vertices});
 }
 
 template <int dim>
@@ -361,7 +370,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
         make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
       output.patches.back().patch_index = output.patches.size() - 1;
     }
-  for (const RigidPiece &piece : rigid_pieces)
+  for (const RigidPiece &piece : cut_rigid_bodies())
     {
       const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
       std::vector<dealii::Point<dim>> vertices = piece.vertices;

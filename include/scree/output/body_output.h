@@ -52,15 +52,16 @@ private:
   };
 
   void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
-  void cut_rigid_body(const unsigned int body);
+  /** Of all rigid bodies, on the first process. */
+  std::vector<RigidPiece> cut_rigid_bodies() const;
+  void cut_rigid_body(const unsigned int body, std::vector<RigidPiece> &pieces) const;
   /** What of a cell of the lattice of a rigid body lies inside. */
   void cut_rigid_cell(const unsigned int body, const std::vector<dealii::Point<dim>> &corners,
-                      const std::vector<double> &phi);
+                      const std::vector<double> &phi, std::vector<RigidPiece> &pieces) const;
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
   std::vector<Piece>            body_pieces;
-  std::vector<RigidPiece>       rigid_pieces;
 };
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
