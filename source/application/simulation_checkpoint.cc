@@ -45,8 +45,8 @@ row_of(const PlacedValues<dim> &values, const unsigned int number, const dealii:
   return row;
 }
 
-/** That points belong to bodies and are near the grid: what is not would be searched for in vain.
- */
+/** That points belong to bodies, are near the grid and no larger than it: else they would be
+ * searched for in vain, or divided without end. */
 template <int dim>
 void
 require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
@@ -55,7 +55,8 @@ require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
   const auto [lower, upper] = box.get_boundary_points();
   const double reach        = lower.distance(upper);
   for (std::size_t i = 0; i < points.size(); ++i)
-    require(points.body[i] < n_bodies && points.position[i].distance(box.center()) < reach,
+    require(points.body[i] < n_bodies && points.position[i].distance(box.center()) < reach
+              && points.spacing(i) < reach,
             directory, "the checkpoint has material points outside of bodies and grid",
             "start the run anew");
 }
