@@ -1,9 +1,12 @@
 """The deformed bodies, coloured by a field."""
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.tri import Triangulation
 
-from .style import COLOURS, figure_for, nice_number_below, save, short
+from .recovery import recovered
+from .style import COLOURS, RIGID, figure_for, nice_number_below, save, short
 from .surface import draw_section, draw_surface
 
 LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement"}
@@ -93,10 +96,11 @@ def without_chains(places, pairs):
 
 
 def automatic_warp(mesh, contact):
-    """Largest displacement 5% of the size, but no visible overlap of magnified bodies: with the factor w the gap
-    g_0 + n.[[u]] is drawn as g_0 + w n.[[u]]."""
+    """1 where the points were moved, as large displacements are drawn as they are. Else the largest displacement is 5% of
+    the size, but magnified bodies do not visibly overlap: with the factor w the gap g_0 + n.[[u]] is drawn as
+    g_0 + w n.[[u]]."""
     largest = np.linalg.norm(mesh.displacement, axis=1).max()
-    if largest == 0.0:
+    if mesh.is_moved or largest == 0.0:
         return 1.0
     warp = 0.05 * mesh.size / largest
     if contact:
@@ -109,53 +113,90 @@ def automatic_warp(mesh, contact):
     return nice_number_below(max(warp, 1.0))
 
 
+class BodyPicture:
+    """The deformed bodies of one step, coloured by a field: where they are drawn, the values, and their range."""
+
+    def __init__(self, run, field, step, warp, is_raw=False):
+        self.run, self.field, self.step = run, field, step
+        self.mesh = mesh = run.mesh(step)
+        self.contact = run.contact(step) if step in run.contact_files else None
+        self.factor = automatic_warp(mesh, self.contact) if warp == "auto" else warp
+        self.deformed = mesh.points + self.factor * mesh.displacement
+        values = mesh.field(field)
+        # Rigid bodies have no stress; they are grey.
+        self.shown = ~mesh.is_rigid if not field.startswith("displacement") else np.ones(len(values), dtype=bool)
+        self.values = values if is_raw else recovered(mesh, values)
+        coloured = self.values[self.shown] if self.shown.any() else np.zeros(1)
+        self.extremes = coloured.min(), coloured.max()
+        self.limits = limits(coloured)
+
+    @property
+    def title(self):
+        time = self.run.time_of(self.step)
+        words = [f"time {short(time)}"] if time is not None else []
+        if self.factor != 1.0:
+            words.append(f"displacements times {short(self.factor)}")
+        return "\n".join(filter(None, [self.run.title, ", ".join(words)]))
+
+    def draw(self, scale=None, box=None):
+        """Figure and axes in 2D; `scale` and `box` (low and high corner) are those of all frames of an animation."""
+        scale = scale or self.limits
+        if self.mesh.dim == 2:
+            figure, axes, colours = draw_2d(self, scale, box)
+        else:
+            figure, axes, colours = draw_surface(self.mesh, self.deformed, self.values, scale, self.shown, box)
+        self.finish(figure, axes, colours)
+        return figure
+
+    def draw_section(self):
+        section = section_plane(self.mesh, self.contact)
+        figure, axes, colours = draw_section(self.mesh, self.deformed, self.values, section, self.limits, self.shown)
+        self.finish(figure, axes, colours, f", section {'xyz'[section[0]]} = {short(section[1])}")
+        return figure
+
+    def finish(self, figure, axes, colours, more=""):
+        axes.set_title(self.title + more)
+        if not self.shown.any():
+            return
+        low, high = colours.get_clim()
+        quantity = "length" if self.field.startswith("displacement") else "" if self.field == "body" else "stress"
+        label = self.run.units.label(LABELS.get(self.field, self.field.replace("_", " ")), quantity)
+        bar = figure.colorbar(colours, ax=axes, label=label, extend=extend(self.extremes, low, high), shrink=0.85, pad=0.02)
+        bar.ax.set_title(f"max {short(self.extremes[1])}", fontsize=9)
+        if self.extremes[0] < 0.0:
+            bar.ax.set_xlabel(f"min {short(self.extremes[0])}", fontsize=9)
+
+
 def limits(values):
-    """Range of the colours: 99.5% of the points, so that corner singularities do not hide the rest."""
-    low, high = np.percentile(values, [0.25, 99.75])
-    if low >= 0.0 and low < 0.3 * high:
+    """Range of the colours: that of all values, or of 99.5% of them where singular corners would hide the rest."""
+    low, high = values.min(), values.max()
+    usual_low, usual_high = np.percentile(values, [0.25, 99.75])
+    if high - low > 1.5 * (usual_high - usual_low):
+        low, high = usual_low, usual_high
+    if 0.0 <= low < 0.3 * high:
         low = 0.0
     if high - low <= 1e-12 * max(abs(low), abs(high)):
         high, low = high + 1e-9 * (abs(high) or 1.0), low - 1e-9 * (abs(low) or 1.0)
     return low, high
 
 
-def extend(values, low, high):
+def extend(extremes, low, high):
     """Which ends of the colour bar are exceeded by the values."""
     tolerance = 1e-9 * (high - low)
     return {(False, False): "neither", (False, True): "max", (True, False): "min", (True, True): "both"}[
-        (bool(values.min() < low - tolerance), bool(values.max() > high + tolerance))]
+        (bool(extremes[0] < low - tolerance), bool(extremes[1] > high + tolerance))]
 
 
-def draw(run, field, step, warp):
+def draw(run, field, step, warp, is_raw=False):
     """Writes bodies_FIELD.png (bodies_FIELD_NNNN.png for a step asked for), in 3D section_FIELD.png too; the paths."""
     if not run.body_files:
         return []
     suffix = "" if step is None else f"_{step:04d}"
-    step = run.chosen_step(run.body_files, step)
-    mesh = run.mesh(step)
-    values = mesh.field(field)
-    contact = run.contact(step) if step in run.contact_files else None
-    factor = automatic_warp(mesh, contact) if warp == "auto" else warp
-    deformed = mesh.points + factor * mesh.displacement
-    time = run.time_of(step)
-    title = f"{run.title}\n" + (f"time {short(time)}, " if time is not None else "") + f"displacements times {short(factor)}"
-    pictures = []
-
-    def finish(name, drawn, more=""):
-        figure, axes, colours = drawn
-        axes.set_title(title + more)
-        label = LABELS.get(field, field.replace("_", " "))
-        figure.colorbar(colours, ax=axes, label=label, extend=extend(values, *colours.get_clim()), shrink=0.85, pad=0.02)
-        pictures.append(save(figure, run.directory / f"{name}_{field}{suffix}.png"))
-
-    if mesh.dim == 2:
-        finish("bodies", draw_2d(mesh, deformed[:, :2], values))
-    else:
-        finish("bodies", draw_surface(mesh, deformed, values, limits(values)))
-        section = section_plane(mesh, contact)
-        finish("section", draw_section(mesh, deformed, values, section, limits(values)),
-               f", section {'xyz'[section[0]]} = {short(section[1])}")
-    return pictures
+    picture = BodyPicture(run, field, run.chosen_step(run.body_files, step), warp, is_raw)
+    paths = [save(picture.draw(), run.directory / f"bodies_{field}{suffix}.png")]
+    if picture.mesh.dim == 3:
+        paths.append(save(picture.draw_section(), run.directory / f"section_{field}{suffix}.png"))
+    return paths
 
 
 def section_plane(mesh, contact):
@@ -170,13 +211,21 @@ def section_plane(mesh, contact):
     return axis, force @ contact["xyz"[axis]] / force.sum()
 
 
-def draw_2d(mesh, deformed, values):
-    figure, axes = figure_for(deformed)
-    low, high = limits(values)
-    colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], mesh.triangles()), values,
-                             shading="gouraud", cmap="viridis", vmin=low, vmax=high, rasterized=True)
-    edges = outline(mesh)
-    axes.add_collection(LineCollection(deformed[edges], colors="black", linewidths=0.8, capstyle="round"))
+def draw_2d(picture, scale, box):
+    mesh, deformed = picture.mesh, picture.deformed[:, :2]
+    figure, axes = figure_for(deformed if box is None else np.stack(box)[:, :2])
+    triangles = mesh.triangles()
+    coloured = picture.shown[triangles[:, 0]]
+    colours = ScalarMappable(Normalize(*scale), "viridis")
+    if not coloured.all():
+        axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], triangles[~coloured]), np.zeros(len(deformed)),
+                       shading="gouraud", cmap=ListedColormap([RIGID]), rasterized=True)
+    if coloured.any():
+        colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], triangles[coloured]), picture.values,
+                                 shading="gouraud", cmap="viridis", vmin=scale[0], vmax=scale[1], rasterized=True)
+    axes.add_collection(LineCollection(deformed[outline(mesh)], colors="black", linewidths=0.8, capstyle="round"))
+    axes.set_xlabel(picture.run.units.label("x", "length"))
+    axes.set_ylabel(picture.run.units.label("y", "length"))
     return figure, axes, colours
 
 

@@ -1,10 +1,13 @@
 """Curves: tractions along contact surfaces, and the history."""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.tri import Triangulation
 
+from .results import ResultsError
 from .style import COLOURS, save, short
 
 MAX_PANELS = 6
+MAX_CURVES = 12
 
 
 def position_along(table):
@@ -42,8 +45,8 @@ def arc_length(points):
     return position
 
 
-def draw_contact(run, step, references):
-    """Writes contact.png (contact_NNNN.png for a step asked for) and returns its path."""
+def draw_contact(run, step, references, pairs=None):
+    """Writes contact.png (contact_NNNN.png for a step asked for) and returns its path; `pairs`: only these."""
     if not run.contact_files:
         return None
     name = "contact.png" if step is None else f"contact_{step:04d}.png"
@@ -52,33 +55,52 @@ def draw_contact(run, step, references):
     if len(table["pair"]) == 0:
         return None
     friction = run.friction_coefficients()
-    names = pairs_to_draw(table)
+    names, left_out = pairs_to_draw(table, pairs)
+    if not names:
+        return None
     n_columns = 1 if len(names) == 1 else 2
     n_rows = -(-len(names) // n_columns)
     figure, panels = plt.subplots(n_rows, n_columns, squeeze=False,
-                                  figsize=(7.5 if n_columns == 1 else 12, 4.6 * n_rows))
+                                  figsize=(7.5 if n_columns == 1 else 12, 4.6 * n_rows + (0.4 if left_out else 0.0)))
     for panel in panels.ravel()[len(names):]:
         panel.set_visible(False)
     for pair, panel in zip(names, panels.ravel()):
         chosen = table["pair"] == pair
         draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction.get(pair, float("nan")),
-                  references)
+                  references, run.units)
         panel.set_title(pair)
     time = run.time_of(step)
     figure.suptitle(run.title + (f", time {short(time)}" if time is not None else ""))
+    if left_out:
+        figure.supxlabel(left_out, fontsize=9, wrap=True)
+        print(f"contact: {left_out} (--pair NAME draws others)")
     return save(figure, run.directory / name)
 
 
-def pairs_to_draw(table):
-    """The pairs with the largest forces, in the order of the table."""
+def pairs_to_draw(table, asked):
+    """The pairs with the largest forces, or those asked for, in the order of the table, and which are left out, in words."""
     names = list(dict.fromkeys(table["pair"]))
+    for name in asked or []:
+        if name not in names:
+            raise ResultsError(f"--pair {name}: there is no such pair in this step, but: {', '.join(names)}")
+    if asked:
+        return [name for name in names if name in asked], ""
     force = {name: np.sum((table["weight"] * table["pressure"])[table["pair"] == name]) for name in names}
-    return sorted(sorted(names, key=lambda name: -force[name])[:MAX_PANELS], key=names.index)
+    drawn = sorted(names, key=lambda name: -force[name])[:MAX_PANELS]
+    closed = [name for name in names if name not in drawn and force[name] > 0.0]
+    n_open = len(names) - len(drawn) - len(closed)
+    words = [f"{len(closed)} more pairs in contact: {listed(closed)}"] if closed else []
+    words += [f"{n_open} more pairs without contact"] if n_open else []
+    return [name for name in names if name in drawn], "not drawn: " + "; ".join(words) if words else ""
 
 
-def draw_pair(panel, table, friction, references):
+def listed(names, most=8):
+    return ", ".join(names[:most]) + (f" and {len(names) - most} others" if len(names) > most else "")
+
+
+def draw_pair(panel, table, friction, references, units):
     if "z" in table:
-        draw_pair_3d(panel, table)
+        draw_pair_3d(panel, table, units)
         return
     position, label = position_along(table)
     order = np.argsort(position, kind="stable")
@@ -104,8 +126,8 @@ def draw_pair(panel, table, friction, references):
     if peak > top:
         panel.annotate(f"up to {short(peak)}", (1.0, 1.0), xycoords="axes fraction", ha="right", va="bottom",
                        fontsize=9)
-    panel.set_xlabel(label)
-    panel.set_ylabel("traction")
+    panel.set_xlabel(units.label(label, "length"))
+    panel.set_ylabel(units.label("traction", "stress"))
     panel.legend(loc="upper center", ncol=2)
 
 
@@ -121,30 +143,57 @@ def upper_limit(table):
     return 1.3 * traction.max() if traction.max() < 4.0 * usual else 3.0 * usual
 
 
-def draw_pair_3d(panel, table):
-    """The pressure over the plane of the mean normal where there is contact, and arrows of the tangential traction."""
-    normal = np.array([table[f"normal_{axis}"].mean() for axis in "xyz"])
-    kept = [axis for axis in range(3) if axis != int(np.argmax(np.abs(normal)))]
+def draw_pair_3d(panel, table, units):
+    """The pressure over the contact surface, seen along its mean normal, where there is contact, and arrows of the
+    tangential traction. Parts that face away are not seen; how many is told."""
+    normals = np.stack([table[f"normal_{axis}"] for axis in "xyz"], axis=1)
+    mean = normals.mean(axis=0)
+    kept = [axis for axis in range(3) if axis != int(np.argmax(np.abs(mean)))]
     points = np.stack([table["xyz"[axis]] for axis in kept], axis=1)
     closed = points[table["status"] > 0] if (table["status"] > 0).any() else points
     low, high = closed.min(axis=0), closed.max(axis=0)
     margin = 0.15 * (high - low).max() + 1e-9
-    shown = ((points > low - margin) & (points < high + margin)).all(axis=1)
-    points = points[shown]
-    spacing = np.sqrt(np.median(table["weight"][shown]))  # about the distance of points
-    size = 200.0 * spacing / ((high - low).max() + 2.0 * margin)  # points of a picture four inches wide
-    dots = panel.scatter(*points.T, c=table["pressure"][shown], s=np.clip(size, 2.0, 12.0) ** 2, marker="s",
-                         linewidths=0, cmap="viridis")
+    seen = normals @ mean > 0.2 * np.linalg.norm(mean)
+    shown = ((points > low - margin) & (points < high + margin)).all(axis=1) & seen
+    points, pressure = points[shown], table["pressure"][shown]
+    surface = surface_of(points, 2.5 * np.sqrt(table["weight"][shown].max(initial=0.0)))
+    if surface is None:
+        colours = panel.scatter(*points.T, c=pressure, s=16, marker="s", linewidths=0, cmap="viridis")
+    else:
+        colours = panel.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", rasterized=True)
     tau = np.stack([table[f"tau_{'xyz'[axis]}"] for axis in kept], axis=1)[shown]
-    if np.abs(tau).max() > 0.0:
+    if np.abs(tau).max(initial=0.0) > 0.0:
         arrows = np.flatnonzero(np.linalg.norm(tau, axis=1) > 0.0)
         arrows = arrows[::max(1, len(arrows) // 400)]
         panel.quiver(*points[arrows].T, *tau[arrows].T, color="white", width=0.002)
     panel.set_aspect("equal")
-    panel.set_xlabel("xyz"[kept[0]])
-    panel.set_ylabel("xyz"[kept[1]])
-    label = "pressure p" + (r", arrows: tangential traction" if np.abs(tau).max() > 0.0 else "")
-    panel.figure.colorbar(dots, ax=panel, label=label, shrink=0.85)
+    panel.grid(False)
+    panel.set_xlabel(units.label("xyz"[kept[0]], "length"))
+    panel.set_ylabel(units.label("xyz"[kept[1]], "length"))
+    label = "pressure p" + (r", arrows: tangential traction" if np.abs(tau).max(initial=0.0) > 0.0 else "")
+    bar = panel.figure.colorbar(colours, ax=panel, label=units.label(label, "stress"), shrink=0.85)
+    bar.ax.set_title(f"max {short(pressure.max(initial=0.0))}", fontsize=9)
+    behind = np.sum(table["weight"][~seen & (table["status"] > 0)]) / max(np.sum(table["weight"][table["status"] > 0]), 1e-300)
+    if behind > 0.005:
+        panel.annotate(f"{100.0 * behind:.0f} % of the contact faces away and is not seen", (0.0, 1.0),
+                       xycoords="axes fraction", va="bottom", fontsize=8)
+
+
+def surface_of(points, longest):
+    """The triangulation of scattered points of a surface without triangles with an edge longer than `longest`."""
+    if len(points) < 3:
+        return None
+    try:
+        surface = Triangulation(*points.T)
+    except (RuntimeError, ValueError):  # all on a line
+        return None
+    corners = points[surface.triangles]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    kept = edges.max(axis=1) <= longest
+    if not kept.any():
+        return None
+    surface.set_mask(~kept)
+    return surface
 
 
 def draw_history(run):
@@ -162,30 +211,66 @@ def draw_history(run):
         "Forces of boundary conditions": [n for n in forces if n.split(".force_")[0] not in pairs],
         "Contact surface": [f"{pair}.{status}" for pair in pairs for status in ("stick", "slip")],
         "Energies": [name for name in history if name.startswith("energy.")]}
-    units = {"Contact surface": "length or area"}
+    quantities = {"Contact surface": ("length" if run.dimension == 2 else "area", "area"), "Energies": ("energy", "energy")}
     groups = {title: visible(history, names) for title, names in groups.items()}
-    groups = {title: names for title, names in groups.items() if names}
+    groups = {title: found for title, found in groups.items() if found[0]}
     figure, panels = plt.subplots(-(-len(groups) // 2), 2, squeeze=False, figsize=(13, 3.9 * -(-len(groups) // 2)))
     for panel in panels.ravel()[len(groups):]:
         panel.set_visible(False)
-    for (title, names), panel in zip(groups.items(), panels.ravel()):
+    for (title, (names, n_left_out)), panel in zip(groups.items(), panels.ravel()):
         labels = [name.replace("energy.", "").replace(".force_", ", ").replace(".", ", ").replace("_", " ")
                   for name in names]
-        quantity = units.get(title, "energy" if title == "Energies" else "force")
+        quantity = run.units.label(*quantities.get(title, ("force", "force")))
         if len(time) == 1:
             draw_bars(panel, labels, [history[name][0] for name in names], quantity)
         else:
-            draw_lines(panel, time, labels, [history[name] for name in names], quantity)
-        panel.set_title(title)
+            # Before the first step nothing is loaded, unless bodies overlap.
+            starts_at_zero = title != "Contact surface" and run.starts_unloaded()
+            draw_lines(panel, time, labels, [history[name] for name in names], quantity, starts_at_zero)
+        panel.set_title(title + (f" ({n_left_out} smaller ones not drawn)" if n_left_out else ""))
     figure.suptitle(run.title)
     return save(figure, run.directory / "history.png")
 
 
-def draw_lines(panel, time, labels, curves, quantity):
+def draw_force_displacement(run):
+    """Writes force_displacement.png: what boundary conditions and rigid bodies do against what they move, component by
+    component; nothing if nothing moves."""
+    if not run.has_history:
+        return None
+    history = run.history()
+    owners = [name[:-len(".displacement_x")] for name in history if name.endswith(".displacement_x")]
+    curves = {}
+    for owner in owners:
+        for axis in "xyz":
+            names = f"{owner}.displacement_{axis}", f"{owner}.force_{axis}"
+            if all(name in history and len(history[name]) for name in names):
+                curves[f"{owner.replace('.', ', ')}, {axis}"] = tuple(history[name] for name in names)
+    largest = [max((np.abs(curve[i]).max() for curve in curves.values()), default=0.0) for i in (0, 1)]
+    curves = {label: curve for label, curve in curves.items()
+              if all(np.abs(curve[i]).max() > 1e-4 * largest[i] > 0.0 for i in (0, 1))}
+    if not curves:
+        return None
+    left_out = len(curves) - MAX_CURVES
+    kept = sorted(curves, key=lambda label: -np.ptp(curves[label][0]) * np.abs(curves[label][1]).max())[:MAX_CURVES]
+    figure, panel = plt.subplots(figsize=(8.5, 4.8))
+    zero = [0.0] if run.starts_unloaded() else []
+    for label, (motion, force) in ((label, curves[label]) for label in curves if label in kept):
+        panel.plot([*zero, *motion], [*zero, *force], marker="o" if len(motion) < 30 else "", markersize=4, label=label)
+    panel.set_xlabel(run.units.label("mean displacement since the start", "length"))
+    panel.set_ylabel(run.units.label("force on the body", "force"))
+    panel.ticklabel_format(axis="both", scilimits=(-3, 4))
+    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    panel.set_title(run.title + (f"\n{left_out} curves with less work not drawn" if left_out > 0 else ""))
+    return save(figure, run.directory / "force_displacement.png")
+
+
+def draw_lines(panel, time, labels, curves, quantity, starts_at_zero):
+    zero = [0.0] if starts_at_zero else []
     for number, (label, curve) in enumerate(zip(labels, curves)):
         dashed = label == "external work"  # often on top of the strain energy
-        panel.plot(time, curve, linestyle=["--" if dashed else "-", "--", ":"][number // len(COLOURS) % 3],
+        panel.plot([*zero, *time], [*zero, *curve], linestyle=["--" if dashed else "-", "--", ":"][number // len(COLOURS) % 3],
                    marker="o" if len(time) < 30 else "", markersize=4, label=label)
+    panel.set_xlim(left=min(0.0, time[0]))
     panel.set_xlabel("time")
     panel.set_ylabel(quantity)
     panel.ticklabel_format(axis="y", scilimits=(-3, 4))
@@ -207,8 +292,9 @@ def draw_bars(panel, labels, values, quantity):
 
 
 def visible(history, names):
-    """The curves that are not zero beside the largest of them, at most 12."""
+    """The curves that are not zero beside the largest of them, at most MAX_CURVES, and how many are left out."""
     sizes = {name: np.abs(np.nan_to_num(history[name])).max() for name in names}
     largest = max(sizes.values(), default=0.0)
     kept = [name for name in names if sizes[name] > 1e-9 * largest]
-    return sorted(sorted(kept, key=lambda name: -sizes[name])[:12], key=names.index)
+    drawn = sorted(sorted(kept, key=lambda name: -sizes[name])[:MAX_CURVES], key=names.index)
+    return drawn, len(kept) - len(drawn)

@@ -52,13 +52,32 @@ class ReferenceCurve:
         raise ResultsError(f"{file_name} has no column '{word}', but: {', '.join(table)}")
 
 
+class Units:
+    """Labels with units, where the input names them (Units = length, stress, force); 2D is per unit of thickness."""
+
+    def __init__(self, text, dimension):
+        names = [name.strip() for name in text.split(",")]
+        self.known = {}
+        if len(names) == 3 and all(names):
+            length, stress, force = names
+            per = "" if dimension == 3 else f"/{length}"
+            self.known = {"length": length, "stress": stress, "force": force + per,
+                          "moment": f"{force} {length}{per}", "energy": f"{force} {length}{per}",
+                          "area": length if dimension == 2 else f"{length}²"}
+
+    def label(self, text, quantity):
+        return f"{text} [{self.known[quantity]}]" if quantity in self.known else text
+
+
 class BodyMesh:
-    """The pieces of the bodies in the order of the file: points (n, 3), arrays of triangles and quadrilaterals
-    (2D) or tetrahedra and hexahedra (3D) with the kind of each cell, and the fields at the points."""
+    """The pieces of the bodies in the order of the file: points (n, 3) where they are at the start of the run, arrays
+    of triangles and quadrilaterals (2D) or tetrahedra and hexahedra (3D) with the kind of each cell, and the fields at
+    the points. The file says whether its points are those of the start or moved (FieldData points_are_moved)."""
 
     triangle, quadrilateral, tetrahedron, hexahedron = 5, 9, 10, 12
 
-    def __init__(self, pieces):
+    def __init__(self, pieces, is_moved=False):
+        """`is_moved` counts where files do not say it (those of version 0.1 before the field datum)."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -68,6 +87,8 @@ class BodyMesh:
             reader.SetFileName(str(path))
             reader.Update()
             grid = reader.GetOutput()
+            moved = grid.GetFieldData().GetArray("points_are_moved")
+            is_moved = moved.GetValue(0) if moved else is_moved
             if grid.GetNumberOfPoints() == 0:
                 continue
             points.append(vtk_to_numpy(grid.GetPoints().GetData()).astype(float))
@@ -88,7 +109,11 @@ class BodyMesh:
         self.fields = {name: np.concatenate(parts) for name, parts in fields.items()}
         self.cells = {kind: np.concatenate(parts) for kind, parts in cells.items()}
         self.dim = 3 if any(kind in self.cells for kind in (self.tetrahedron, self.hexahedron)) else 2
+        self.is_moved = bool(is_moved)
+        if self.is_moved:
+            self.points -= self.displacement[:, :3]
         self.fields["displacement_magnitude"] = np.linalg.norm(self.displacement, axis=1)
+        self.rigid_bodies = np.array([], dtype=int)
 
     @property
     def displacement(self):
@@ -98,6 +123,11 @@ class BodyMesh:
     def body(self):
         """Number of the body at each point."""
         return np.rint(self.fields["body"]).astype(int)
+
+    @property
+    def is_rigid(self):
+        """Whether each point is one of a rigid body."""
+        return np.isin(self.body, self.rigid_bodies)
 
     @property
     def size(self):
@@ -152,6 +182,14 @@ class RunResults:
         return not self.has_history and 0 in self.body_files
 
     @property
+    def units(self):
+        return Units(self.parameters.get("Units", ""), self.dimension)
+
+    @property
+    def dimension(self):
+        return int(self.parameters.get("Dimension", "2"))
+
+    @property
     def title(self):
         return self.parameters.get("Title", "") or self.directory.name
 
@@ -172,11 +210,14 @@ class RunResults:
         return step
 
     def mesh(self, step):
-        """The points of a moving geometry are written where they are at the end of the step."""
-        mesh = BodyMesh(self.body_files[step])
-        if self.parameters.get("Moving geometry/Update", "none") != "none":
-            mesh.points -= mesh.displacement[:, :mesh.points.shape[1]]
+        mesh = BodyMesh(self.body_files[step], self.parameters.get("Moving geometry/Update", "none") != "none")
+        mesh.rigid_bodies = np.array([number for number, name in enumerate(self.names("Bodies"))
+                                      if self.is_rigid(name)], dtype=int)
         return mesh
+
+    def is_rigid(self, body):
+        material = self.parameters.get(f"Bodies/{body}/Material", "")
+        return self.parameters.get(f"Materials/{material}/Law", "") == "rigid"
 
     def contact(self, step):
         return read_table(self.contact_files[step][0])
@@ -212,6 +253,12 @@ class RunResults:
         history = self.history()
         rows = np.flatnonzero(history["step"] == step)
         return history["time"][rows[0]] if rows.size else None
+
+    def starts_unloaded(self):
+        """Whether no bodies overlap at the start, by the gaps that the log tells."""
+        log = self.directory / "log.txt"
+        text = log.read_text(encoding="utf-8") if log.exists() else ""
+        return not re.search("overlap at the start", text)
 
     def friction_coefficients(self):
         """{name: friction coefficient} of the contact pairs, nan without Coulomb friction; the log tells the law."""

@@ -38,7 +38,7 @@ def draw_3d(run, mesh):
     """The bodies' surfaces in their colours."""
     names = run.names("Bodies")
     cmap = ListedColormap([body_colour(number) for number in range(len(names))])
-    figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, len(names) - 0.5), cmap)
+    figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, len(names) - 0.5), cmap=cmap)
     axes.legend(handles=[Patch(color=body_colour(number), label=name) for number, name in enumerate(names)],
                 loc="center left", bbox_to_anchor=(1.01, 0.5))
     axes.set_title(run.title + ": set-up")

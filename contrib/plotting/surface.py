@@ -1,10 +1,12 @@
 """Pictures of bodies in 3D: their surface and plane sections, drawn pixel by pixel with the nearest triangle in front."""
+import itertools
+
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, to_rgba
 
 from .results import BodyMesh
-from .style import figure_for
+from .style import RIGID, figure_for
 
 PIXELS = 1000  # along the longer side of the picture
 # A cube in six tetrahedra around the diagonal of the vertices 0 and 6 of VTK's order.
@@ -121,13 +123,14 @@ def section_triangles(mesh, axis, position):
     return pairs, share
 
 
-def draw_surface(mesh, deformed, values, scale, cmap="viridis"):
-    """The surface, seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
+def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis"):
+    """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
     view = View()
     triangles = surface_triangles(mesh)
     plane, nearness = view.project(deformed)
     used = np.unique(triangles)
-    figure, axes = figure_for(plane[used])
+    corners = plane[used] if box is None else view.project(np.array(list(itertools.product(*zip(*box)))))[0]
+    figure, axes = figure_for(corners)
     axes.set_axis_off()
     raster = Raster(plane, nearness, triangles)
     a, b, c = (deformed[triangles[:, i]] for i in range(3))
@@ -137,13 +140,15 @@ def draw_surface(mesh, deformed, values, scale, cmap="viridis"):
     light = 0.65 + 0.35 * np.abs(normal @ lamp / np.linalg.norm(lamp))
     colours = ScalarMappable(Normalize(*scale), cmap)
     image = colours.to_rgba(raster.values(values[triangles]))
+    if shown is not None:
+        image[~shown[triangles[:, 0]][raster.triangle]] = to_rgba(RIGID)
     image[:, :, :3] *= light[raster.triangle][:, :, None]
     image[raster.triangle < 0] = 0.0
     raster.draw(axes, image, raster.outlines(mesh.body[triangles[:, 0]]))
     return figure, axes, colours
 
 
-def draw_section(mesh, deformed, values, section, scale, cmap="viridis"):
+def draw_section(mesh, deformed, values, section, scale, shown, cmap="viridis"):
     """The section with the plane (axis, position) of the undeformed bodies. Figure, axes, and the colours."""
     pairs, share = section_triangles(mesh, *section)
     kept = [axis for axis in range(3) if axis != section[0]]
@@ -157,6 +162,7 @@ def draw_section(mesh, deformed, values, section, scale, cmap="viridis"):
     raster = Raster(plane, np.zeros(len(plane)), np.arange(len(plane)).reshape(-1, 3))
     colours = ScalarMappable(Normalize(*scale), cmap)
     image = colours.to_rgba(raster.values(field[..., 0]))
+    image[~shown[pairs[:, 0, 0]][raster.triangle]] = to_rgba(RIGID)
     image[raster.triangle < 0] = 0.0
     raster.draw(axes, image, raster.outlines(mesh.body[pairs[:, 0, 0]]))
     return figure, axes, colours

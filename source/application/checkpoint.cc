@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/archive/archive_exception.hpp>
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <sstream>
@@ -40,7 +39,7 @@ Checkpoint<dim>::read(const std::string &directory, const MPI_Comm communicator)
       boost::archive::binary_iarchive archive(bytes);
       archive >> result;
     }
-  catch (const boost::archive::archive_exception &error)
+  catch (const std::exception &error) // of the archive, or lengths that cannot be
     {
       throw UserError(directory, std::string("the checkpoint is not understood: ") + error.what(),
                       "go on with the version of scree that wrote it (see log.txt)");
@@ -55,7 +54,7 @@ require_resumable(const std::map<std::string, std::string> &before,
 {
   const auto may_change = [](const std::string &path) {
     const auto begins = [&path](const std::string &section) { return path.rfind(section, 0) == 0; };
-    return path == "Title" || begins("Time/") || begins("Solver/")
+    return path == "Title" || path == "Units" || begins("Time/") || begins("Solver/")
            || (begins("Output/") && !begins("Output/Probes/"));
   };
   const std::string remedy

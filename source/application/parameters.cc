@@ -1,4 +1,5 @@
 #include <scree/application/parameters.h>
+#include <scree/parameters/values.h>
 
 #include <algorithm>
 #include <set>
@@ -76,6 +77,11 @@ Parameters<dim>::declare(ParameterFile &file)
 {
   ParameterSection root = file.root();
   root.entry("Title", title, "A title for logs and plots.");
+  root.entry("Units", units,
+             "Names of the units of length, stress and force, as labels of pictures: mm, MPa, N.");
+  if (!units.empty() && split_list(units, ',').size() != 3)
+    root.error("Units", "'" + units + "' are not three names",
+               "give those of length, stress and force, as in mm, MPa, N");
 
   ParameterSection grid_section = root.subsection("Grid", "The background grid.");
   grid.declare(grid_section);

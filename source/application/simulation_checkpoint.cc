@@ -44,6 +44,22 @@ row_of(const PlacedValues<dim> &values, const unsigned int number, const dealii:
           "go on with the version of scree that wrote it (see log.txt), or start the run anew");
   return row;
 }
+
+/** That points belong to bodies, are near the grid and no larger than it: else they would be
+ * searched for in vain, or divided without end. */
+template <int dim>
+void
+require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
+              const dealii::BoundingBox<dim> &box, const std::string &directory)
+{
+  const auto [lower, upper] = box.get_boundary_points();
+  const double reach        = lower.distance(upper);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    require(points.body[i] < n_bodies && points.position[i].distance(box.center()) < reach
+              && points.spacing(i) < reach,
+            directory, "the checkpoint has material points outside of bodies and grid",
+            "start the run anew");
+}
 } // namespace
 
 template <int dim>
@@ -233,6 +249,7 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
     if (p * n_here / saved.points.size() == rank)
       for (std::size_t i = 0; i < saved.points[p].size(); i += state.points.n_values())
         state.points.unpack(&saved.points[p][i]);
+  require_sound(state.points, bodies.size(), grid->box(), directory);
   state.step_end = saved.step_end;
   if (rank > 0)
     state.step_end.driving.of_points.clear();
@@ -252,7 +269,15 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
       if (parameters.moving.motion != IncrementMotion::reference_map)
         bodies[b].shape = nullptr;
     }
-  discretise();
+  try
+    {
+      discretise();
+    }
+  catch (const dealii::ExceptionBase &)
+    {
+      throw UserError(directory, "material points of the checkpoint are not in their bodies",
+                      "start the run anew");
+    }
   results->set_discretization(*fields, *level_set_nodes);
   start_step();
   require_no_loss(state.points.totals(bodies.size(), communicator));

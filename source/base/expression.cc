@@ -1,10 +1,67 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 
 namespace scree
 {
+namespace
+{
+/** deal.II prints what muParser complains of before it throws; while this lives, it is kept off the
+ * screen. */
+class SilentErrors
+{
+public:
+  SilentErrors()
+      : buffer(std::cerr.rdbuf(nullptr))
+  {
+  }
+  ~SilentErrors()
+  {
+    std::cerr.rdbuf(buffer);
+    std::cerr.clear();
+  }
+  SilentErrors(const SilentErrors &)            = delete;
+  SilentErrors &operator=(const SilentErrors &) = delete;
+
+private:
+  std::streambuf *buffer;
+};
+
+/** muParser's sentence out of deal.II's message, which breaks it into lines. */
+std::string
+reason_of(const std::string &message)
+{
+  const auto begin = message.find("said:");
+  if (begin == std::string::npos)
+    return "";
+  std::string reason = message.substr(begin + 5, message.find('<', begin) - begin - 5);
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  std::string result;
+  for (const char c : reason)
+    if (c != ' ' || (!result.empty() && result.back() != ' '))
+      result += c;
+  return result;
+}
+
+/** Whether a formula sets a variable: muParser would change x, y or t for what follows. */
+bool
+assigns(const std::string &formula)
+{
+  for (std::size_t i = 0; i < formula.size(); ++i)
+    if (formula[i] == '=')
+      {
+        if (i + 1 < formula.size() && formula[i + 1] == '=')
+          ++i;
+        else if (i == 0 || std::string("<>!").find(formula[i - 1]) == std::string::npos)
+          return true;
+      }
+  return false;
+}
+} // namespace
+
 template <int dim>
 Expression<dim>::Expression(const std::string &text, const unsigned int n_components,
                             const std::string &where)
@@ -17,8 +74,10 @@ Expression<dim>::Expression(const std::string &text, const unsigned int n_compon
           "'" + text + "' has " + std::to_string(separators + 1) + " component(s)",
           "give " + std::to_string(n_components) + " expression(s) of " + variables
             + ", separated by ';'");
+  require(!assigns(text), where, "'" + text + "' sets a variable", "compare with '=='");
   try
     {
+      const SilentErrors silence;
       parser->initialize(variables, text, {{"pi", M_PI}}, true);
       // muParser compiles at the first evaluation: let its complaint come here.
       for (unsigned int c = 0; c < n_components; ++c)
@@ -26,13 +85,7 @@ Expression<dim>::Expression(const std::string &text, const unsigned int n_compon
     }
   catch (const std::exception &error)
     {
-      std::string reason = error.what();
-      const auto  begin  = reason.find("said:");
-      if (begin != std::string::npos)
-        reason = reason.substr(begin + 5, reason.find('\n', begin) - begin - 5);
-      else
-        reason = "";
-      throw UserError(where, "'" + text + "' is not a formula:" + reason,
+      throw UserError(where, "'" + text + "' is not a formula: " + reason_of(error.what()),
                       "use " + variables + ", pi, numbers, + - * / ^ and muParser's functions");
     }
 }

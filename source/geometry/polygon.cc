@@ -42,7 +42,7 @@ check(const ShapeParameters<dim> &p, const ParameterSection &section)
   else if (!vertices.empty() && vertices.size() < 3)
     section.error("Vertices", "the polygon has " + std::to_string(vertices.size()) + " vertices",
                   "give at least 3, as in 0,0; 1,0; 1,1");
-  else if (Polygon::crosses_itself(vertices))
+  else if (!vertices.empty() && Polygon::crosses_itself(vertices))
     section.error("Vertices", "the sides of the polygon cross or touch each other",
                   "list the corners in order along the boundary, each once");
 }

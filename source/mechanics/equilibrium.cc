@@ -1,3 +1,4 @@
+#include <scree/mechanics/condition_motion.h>
 #include <scree/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -416,11 +417,15 @@ template <int dim>
 std::vector<Resultant<dim>>
 Equilibrium<dim>::resultants(const Vector &u) const
 {
-  std::vector<Resultant<dim>> result = boundary_terms.resultants(with_ghosts(u), time);
+  const Vector                ghosted = with_ghosts(u);
+  std::vector<Resultant<dim>> result  = boundary_terms.resultants(ghosted, time);
   Vector                      forces(internal_forces);
   reactions(forces);
   for (const auto &resultant : supports.resultants(forces))
     result.push_back(resultant);
+  const auto displacements = mean_displacements(fields, boundary_terms, supports, ghosted);
+  for (unsigned int i = 0; i < result.size(); ++i)
+    result[i].displacement = displacements[i];
   return result;
 }
 

@@ -1,3 +1,4 @@
+#include <scree/discretization/cell_cut.h>
 #include <scree/output/body_output.h>
 #include <scree/output/column_names.h>
 #include <scree/output/vtu_files.h>
@@ -213,10 +214,6 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
     : fields(fields)
     , bodies(bodies)
 {
-  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (bodies[b].is_rigid())
-        cut_rigid_body(b);
   const auto add_whole = [&](const unsigned int a) {
     Piece piece{a, {}};
     for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
@@ -271,8 +268,20 @@ BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<doub
 }
 
 template <int dim>
+std::vector<typename BodyOutput<dim>::RigidPiece>
+BodyOutput<dim>::cut_rigid_bodies() const
+{
+  std::vector<RigidPiece> pieces;
+  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_rigid())
+        cut_rigid_body(b, pieces);
+  return pieces;
+}
+
+template <int dim>
 void
-BodyOutput<dim>::cut_rigid_body(const unsigned int body)
+BodyOutput<dim>::cut_rigid_body(const unsigned int body, std::vector<RigidPiece> &pieces) const
 {
   const Lattice<dim> &lattice = bodies[body].rigid->picture;
   for (std::size_t i = 0; i < lattice.values().size(); ++i)
@@ -289,22 +298,54 @@ BodyOutput<dim>::cut_rigid_body(const unsigned int body)
           corners.push_back(lattice.node(node));
           phi.push_back(lattice(node));
         }
-      if (corners.size() < dealii::GeometryInfo<dim>::vertices_per_cell)
-        continue;
-      const unsigned int n_inside
-        = std::count_if(phi.begin(), phi.end(), [](const double value) { return value < 0.; });
-      if (n_inside == corners.size())
-        rigid_pieces.push_back({body, corners});
-      else if (n_inside > 0)
-        for (const auto &vertices : clip_box(corners, phi))
-          rigid_pieces.push_back({body, vertices});
+      if (corners.size() == dealii::GeometryInfo<dim>::vertices_per_cell)
+        cut_rigid_cell(body, corners, phi, pieces);
     }
+}
+
+template <int dim>
+void
+BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
+                                const std::vector<dealii::Point<dim>> &corners,
+                                const std::vector<double>             &phi,
+                                std::vector<RigidPiece>               &pieces) const
+{
+  const auto  &shape   = bodies[body].rigid->shape;
+  const double size    = corners[1][0] - corners[0][0];
+  const bool   is_near = std::any_of(phi.begin(), phi.end(), [&](const double value) {
+    return std::abs(value) < 2. * std::sqrt(double(dim)) * size;
+  });
+  CellCut<dim> cut;
+  if (shape && !shape->is_smooth() && is_near)
+    cut = cut_by_pieces(*shape, LagrangeBasis<dim>(1), corners, size);
+  else
+    {
+      nudge(phi.data(), phi.size(), size, cut.scaled.data());
+      cut.location = location_of(cut.scaled.data(), phi.size());
+    }
+  for (const auto &part : cut.parts)
+    for (auto &simplex : part.simplices())
+      {
+        for (auto &vertex : simplex)
+          vertex = corners[0] + size * dealii::Tensor<1, dim>(vertex);
+        orient<dim>(simplex);
+        pieces.push_back({body, simplex});
+      }
+  if (!cut.parts.empty() || cut.location == CellLocation::outside)
+    return;
+  if (cut.location == CellLocation::inside)
+    pieces.push_back({body, corners});
+  else
+    for (const auto &vertices :
+         clip_box(corners, {cut.scaled.begin(), cut.scaled.begin() + corners.size()}))
+      pieces.push_back({body, vertices});
 }
 
 template <int dim>
 std::string
 BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
-                       const std::string &directory, const unsigned int number) const
+                       const std::string &directory, const unsigned int number,
+                       const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   Patches<dim> output;
@@ -329,7 +370,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
         make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
       output.patches.back().patch_index = output.patches.size() - 1;
     }
-  for (const RigidPiece &piece : rigid_pieces)
+  for (const RigidPiece &piece : cut_rigid_bodies())
     {
       const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
       std::vector<dealii::Point<dim>> vertices = piece.vertices;
@@ -347,7 +388,9 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
   output.set_flags(flags);
   return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
-                         fields.grid.communicator());
+                         fields.grid.communicator(),
+                         field_datum("TimeValue", time)
+                           + field_datum("points_are_moved", bulk.step_start() ? 1. : 0.));
 }
 
 template class BodyOutput<2>;

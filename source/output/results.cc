@@ -146,7 +146,10 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   const auto of_pairs = pair_columns<dim>(pairs_with_columns(contact));
   names.insert(names.end(), of_pairs.begin(), of_pairs.end());
   for (const std::string &condition : equilibrium.condition_names())
-    add_resultant_names<dim>(condition, names);
+    {
+      add_vector_names<dim>(condition + ".displacement", names);
+      add_resultant_names<dim>(condition, names);
+    }
   for (const auto &body : bodies)
     if (body.is_rigid())
       add_rigid_names<dim>(body.name, names);
@@ -252,7 +255,11 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
         values.push_back(value);
     }
   for (const auto &resultant : equilibrium.resultants(u))
-    add_resultant<dim>(resultant.force, resultant.moment, values);
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        values.push_back(resultant.displacement[d]);
+      add_resultant<dim>(resultant.force, resultant.moment, values);
+    }
   for (const auto &state : equilibrium.rigid_bodies().states(ghosted_u))
     {
       const dealii::Point<dim> &reference = bodies[state.body].rigid->reference_point;
@@ -317,9 +324,9 @@ template <int dim>
 bool
 Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
-  bool is_written
-    = add_picture(record.time, body_output->write(bulk, ghosted_u, directory, record.step),
-                  "bodies.pvd", body_records);
+  bool is_written = add_picture(
+    record.time, body_output->write(bulk, ghosted_u, directory, record.step, record.time),
+    "bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {

@@ -66,6 +66,21 @@ TEST(Expression, WrongFormulasAreExplained)
   EXPECT_EQ(message<3>("z", 1), "");
 }
 
+TEST(Expression, WrongFormulasAreToldOnceAndInFull)
+{
+  testing::internal::CaptureStderr();
+  const std::string told = message<2>("x + sin(", 1);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(told.find("Unexpected end of expression at position"), std::string::npos) << told;
+}
+
+TEST(Expression, VariablesAreCompared_NotSet)
+{
+  EXPECT_NE(message<2>("x = 3", 1).find("compare with '=='"), std::string::npos);
+  for (const std::string formula : {"x == 3", "x <= 3", "x >= 3", "x != 3"})
+    EXPECT_EQ(message<2>(formula, 1), "") << formula;
+}
+
 enum class Colour
 {
   red,

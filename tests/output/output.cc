@@ -221,11 +221,16 @@ TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
                   + conditions_text({{"held", "set On = surface\nset Value = 0; 0"}})}}));
   const BodyOutput<2> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
   const std::string   name = output.write(
-      model.bulk, model.equilibrium.with_ghosts(model.state.displacement), directory.path, 0);
+      model.bulk, model.equilibrium.with_ghosts(model.state.displacement), directory.path, 0, 0.5);
   EXPECT_EQ(name, "bodies_0000.vtu");
   const std::string text = content(directory.path + "/" + name);
   EXPECT_NE(text.find("displacement"), std::string::npos);
   EXPECT_NE(text.find("von_mises"), std::string::npos);
+  // On a fixed geometry points are where they were at the start.
+  EXPECT_NE(text.find("Name=\"points_are_moved\" NumberOfTuples=\"1\" format=\"ascii\">0<"),
+            std::string::npos);
+  EXPECT_NE(text.find("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">0.5<"),
+            std::string::npos);
 }
 
 /** The volume of a ball of radius 0.7 in the output, all of whose simplices are right-handed. */

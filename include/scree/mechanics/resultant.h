@@ -7,12 +7,16 @@
 
 namespace scree
 {
-/** Resultant on the body of one condition: force, and moment about the origin. */
+/**
+ * Resultant on the body of one condition: force, and moment about the origin. Of the conditions of
+ * an Equilibrium also what these move.
+ */
 template <int dim>
 struct Resultant
 {
   dealii::Tensor<1, dim> force;
-  dealii::Tensor<1, 3>   moment; //!< 2D: only the last component
+  dealii::Tensor<1, 3>   moment;       //!< 2D: only the last component
+  dealii::Tensor<1, dim> displacement; //!< mean over the region since the start of the run [L]
 };
 
 /** Sums resultants over all processes with one reduction. Collective. */

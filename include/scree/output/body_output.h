@@ -11,9 +11,9 @@ namespace scree
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
  * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
  * displacement, stress, von Mises and principal stresses. On a fixed geometry they are undeformed
- * (ParaView: Warp By Vector), on a moving one they are where they are at the end of the step.
- * Rigid bodies come whole, from their coarse lattice, without stress; the first process writes
- * them.
+ * (ParaView: Warp By Vector), on a moving one they are where they are at the end of the step: the
+ * field datum points_are_moved is 0 or 1, TimeValue the time. Rigid bodies come whole, from a
+ * coarse lattice with exact edges and corners, without stress; the first process writes them.
  */
 template <int dim>
 class BodyOutput
@@ -22,9 +22,10 @@ public:
   BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
              const std::vector<Body<dim>> &bodies);
 
-  /** Writes DIR/bodies_NNNN.vtu or .pvtu, see write_vtu_files(). `u` is ghosted. */
+  /** Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted. */
   std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
-                    const std::string &directory, const unsigned int number) const;
+                    const std::string &directory, const unsigned int number,
+                    const double time) const;
 
   /**
    * A piece of a cell: a whole cell, or a simplex of positive orientation; vertices in unit
@@ -51,12 +52,16 @@ private:
   };
 
   void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
-  void cut_rigid_body(const unsigned int body);
+  /** Of all rigid bodies, on the first process. */
+  std::vector<RigidPiece> cut_rigid_bodies() const;
+  void cut_rigid_body(const unsigned int body, std::vector<RigidPiece> &pieces) const;
+  /** What of a cell of the lattice of a rigid body lies inside. */
+  void cut_rigid_cell(const unsigned int body, const std::vector<dealii::Point<dim>> &corners,
+                      const std::vector<double> &phi, std::vector<RigidPiece> &pieces) const;
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
   std::vector<Piece>            body_pieces;
-  std::vector<RigidPiece>       rigid_pieces;
 };
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */

@@ -4,6 +4,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,23 +29,57 @@ write_file(const std::string &file_name, const F &f)
   return file.good();
 }
 
+/** A number for the FieldData of a VTU file. */
+inline std::string
+field_datum(const std::string &name, const double value)
+{
+  std::ostringstream text;
+  text << "<DataArray type=\"Float64\" Name=\"" << name
+       << "\" NumberOfTuples=\"1\" format=\"ascii\">" << std::setprecision(16) << value
+       << "</DataArray>\n";
+  return text.str();
+}
+
+/** Writes the VTU file of an output, with FieldData, which deal.II has none of but its own. */
+template <typename Output>
+void
+write_vtu_with(const Output &output, const std::string &field_data, std::ofstream &file)
+{
+  std::ostringstream text;
+  output.write_vtu(text);
+  const std::string vtu = text.str(), begin = "<UnstructuredGrid>\n";
+  const auto        at = vtu.find(begin);
+  if (field_data.empty() || at == std::string::npos)
+    {
+      file << vtu;
+      return;
+    }
+  const auto behind = static_cast<std::streamsize>(at + begin.size());
+  file.write(vtu.data(), behind);
+  file << "<FieldData>\n" << field_data << "</FieldData>\n";
+  file.write(vtu.data() + behind, static_cast<std::streamsize>(vtu.size()) - behind);
+}
+
 /**
  * Writes what each process has of a dealii::DataOutInterface to DIR/NAME.vtu, on several processes
  * as pieces with a record DIR/NAME.pvtu. Returns the name to put into a PVD record; empty if a
  * process could not write, on all of them. Collective.
+ *
+ * @param field_data see field_datum()
  */
 template <typename Output>
 std::string
 write_vtu_files(const Output &output, const std::string &directory, const std::string &name,
-                const MPI_Comm communicator)
+                const MPI_Comm communicator, const std::string &field_data = "")
 {
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
   const auto         piece   = [&](const unsigned int p) {
     return name + (n_ranks == 1 ? "" : "." + std::to_string(p)) + ".vtu";
   };
-  bool is_written = write_file(directory + "/" + piece(rank),
-                               [&](std::ofstream &file) { output.write_vtu(file); });
+  bool is_written = write_file(directory + "/" + piece(rank), [&](std::ofstream &file) {
+    write_vtu_with(output, field_data, file);
+  });
   if (n_ranks > 1 && rank == 0)
     {
       std::vector<std::string> names;

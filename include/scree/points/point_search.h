@@ -67,7 +67,8 @@ private:
     int number(const double x, const unsigned int d) const
     {
       const double place = (x - lower[d]) * inverse_size;
-      return place <= 0. ? 0 : place >= n[d] ? n[d] - 1 : static_cast<int>(place);
+      // In this order what is no number has a place, too.
+      return place > 0. ? (place < n[d] ? static_cast<int>(place) : n[d] - 1) : 0;
     }
   };
 
