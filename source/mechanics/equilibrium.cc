@@ -13,9 +13,6 @@
 
 namespace scree
 {
-// The artificial mass of bodies whose moments are held whole: round-off alone turns them.
-constexpr double held_mass_factor = 1e-3;
-
 template <int dim>
 Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                               Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
@@ -90,30 +87,6 @@ Equilibrium<dim>::set_up_matrices()
     }
   diagonal.compress(dealii::VectorOperation::insert);
   largest_stiffness = dealii::Utilities::MPI::max(largest_stiffness, communicator);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::set_up_artificial_mass()
-{
-  std::vector<double> factors(bodies.size(), 0.);
-  for (const FreeMotion &free : free_bodies())
-    if (!bodies[free.body].is_rigid())
-      {
-        const double length = RigidMotions<dim>(bodies[free.body]).length();
-        factors[free.body]  = bodies[free.body].material->young() / (length * length);
-      }
-  bulk.add_lumped_volumes(artificial_mass, factors);
-  artificial_mass.compress(dealii::VectorOperation::add);
-  for (const FreeMotion &free : free_bodies())
-    if (bodies[free.body].is_rigid())
-      {
-        const double mass = rigid.stiffness_scale(free.body);
-        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-          if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
-            artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
-      }
-  artificial_mass.compress(dealii::VectorOperation::insert);
 }
 
 template <int dim>
@@ -264,23 +237,6 @@ Equilibrium<dim>::condensation(const bool only_closed)
     if (with_ghosts(rows.columns[i]) != 0.)
       rows.values[i] = 0.;
   return {newton_matrix, rows, boundary_terms.is_symmetric()};
-}
-
-template <int dim>
-void
-Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
-{
-  for (const DofIndex index : fields.owned())
-    if (artificial_mass(index) != 0.)
-      matrix.add(index, index, (mass_factor + drag) * artificial_mass(index));
-  for (unsigned int i = 0; i < free_bodies().size(); ++i)
-    for (const DofIndex unknown : free.unknowns(i))
-      if (are_moments_whole && held_moments[free_bodies()[i].body] != 0.
-          && mass_factor < held_mass_factor)
-        matrix.add(unknown, unknown, (held_mass_factor - mass_factor) * artificial_mass(unknown));
-  // Rows without any other entry.
-  for (const DofIndex index : rigid.prescribed())
-    matrix.add(index, index, largest_stiffness);
 }
 
 template <int dim>

@@ -5,9 +5,53 @@
 #include <algorithm>
 #include <cmath>
 
-// Statics of the free bodies as rigid ones.
+// Free bodies: their statics as rigid ones and the artificial mass that holds them.
 namespace scree
 {
+// The artificial mass of bodies whose moments are held whole: round-off alone turns them.
+constexpr double held_mass_factor = 1e-3;
+
+template <int dim>
+void
+Equilibrium<dim>::set_up_artificial_mass()
+{
+  std::vector<double> factors(bodies.size(), 0.);
+  for (const FreeMotion &free : free_bodies())
+    if (!bodies[free.body].is_rigid())
+      {
+        const double length = RigidMotions<dim>(bodies[free.body]).length();
+        factors[free.body]  = bodies[free.body].material->young() / (length * length);
+      }
+  bulk.add_lumped_volumes(artificial_mass, factors);
+  artificial_mass.compress(dealii::VectorOperation::add);
+  for (const FreeMotion &free : free_bodies())
+    if (bodies[free.body].is_rigid())
+      {
+        const double mass = rigid.stiffness_scale(free.body);
+        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+          if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
+            artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
+      }
+  artificial_mass.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
+{
+  for (const DofIndex index : fields.owned())
+    if (artificial_mass(index) != 0.)
+      matrix.add(index, index, (mass_factor + drag) * artificial_mass(index));
+  for (unsigned int i = 0; i < free_bodies().size(); ++i)
+    for (const DofIndex unknown : free.unknowns(i))
+      if (are_moments_whole && held_moments[free_bodies()[i].body] != 0.
+          && mass_factor < held_mass_factor)
+        matrix.add(unknown, unknown, (held_mass_factor - mass_factor) * artificial_mass(unknown));
+  // Rows without any other entry.
+  for (const DofIndex index : rigid.prescribed())
+    matrix.add(index, index, largest_stiffness);
+}
+
 template <int dim>
 void
 Equilibrium<dim>::shorten(Vector &du, const double length) const
@@ -185,6 +229,7 @@ Equilibrium<dim>::turn(Vector &u) const
   template double                Equilibrium<dim>::held_moment(const unsigned int) const;      \
   template bool                  Equilibrium<dim>::is_geometric(const Vector &, double) const; \
   template bool                  Equilibrium<dim>::turns_infinitesimally() const;              \
+  template void                  Equilibrium<dim>::set_up_artificial_mass();                   \
   template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const;    \
   template void                  Equilibrium<dim>::turn(Vector &) const;                       \
   template double                Equilibrium<dim>::artificial_work(const Vector &) const;      \
@@ -196,6 +241,8 @@ Equilibrium<dim>::turn(Vector &u) const
 template const Equilibrium<2>::Vector &Equilibrium<2>::seen_by_bulk() const;
 template const Equilibrium<3>::Vector &Equilibrium<3>::seen_by_bulk() const;
 
+template void Equilibrium<2>::add_artificial_mass(Matrix &) const;
+template void Equilibrium<3>::add_artificial_mass(Matrix &) const;
 template void Equilibrium<2>::hold_moments(Vector &);
 template void Equilibrium<3>::hold_moments(Vector &);
 SCREE_INSTANTIATE(2)
