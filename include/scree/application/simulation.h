@@ -163,8 +163,7 @@ private:
   /** On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step,
    * half a cell at a time, until contact holds them; the energy is that of transfer. */
   void settle();
-  /** Its loads close contact without friction before the first step; false: no, or motion is given.
-   */
+  /** The loads of step 1 close contact without friction; false: no, or motion is prescribed. */
   bool close_without_friction();
   /** Takes u, which the equilibrium accepted, as the state at the present time. */
   void go_on_from(const typename Equilibrium<dim>::Vector &u);
