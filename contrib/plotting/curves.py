@@ -214,6 +214,8 @@ def draw_history(run):
     quantities = {"Contact surface": ("length" if run.dimension == 2 else "area", "area"), "Energies": ("energy", "energy")}
     groups = {title: visible(history, names) for title, names in groups.items()}
     groups = {title: found for title, found in groups.items() if found[0]}
+    if not groups:
+        return None
     figure, panels = plt.subplots(-(-len(groups) // 2), 2, squeeze=False, figsize=(13, 3.9 * -(-len(groups) // 2)))
     for panel in panels.ravel()[len(groups):]:
         panel.set_visible(False)

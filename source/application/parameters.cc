@@ -71,6 +71,54 @@ OutputParameters<dim>::declare(ParameterSection &section)
     }
 }
 
+namespace
+{
+void
+check_units(const std::string &units, ParameterSection &root)
+{
+  if (!units.empty() && split_list(units, ',').size() != 3)
+    root.error("Units", "'" + units + "' are not three names",
+               "give those of length, stress and force, as in mm, MPa, N");
+}
+
+/** That laws of finite strain move the geometry. */
+template <int dim>
+void
+check_laws(const Parameters<dim> &p, ParameterSection &section)
+{
+  for (const auto &body : p.bodies)
+    {
+      const auto material = p.materials.find(body.material);
+      if (material == p.materials.end())
+        continue;
+      const std::string &law  = material->second.law;
+      const std::string  uses = "the body '" + body.name + "' is of the law '" + law + "'";
+      if (!p.moving.is_moving && needs_moving_geometry(law))
+        section.error("Update", uses + ", which needs a moving geometry",
+                      "set Update = every step, or choose Law = linear elastic");
+    }
+}
+
+/** That probes are in deformable bodies. */
+template <int dim>
+void
+check_probes(const Parameters<dim> &p, ParameterSection &section)
+{
+  for (const auto &probe : p.output.probes)
+    {
+      const auto body = std::find_if(p.bodies.begin(), p.bodies.end(),
+                                     [&](const auto &b) { return b.name == probe.body; });
+      if (body == p.bodies.end())
+        section.error("Probes", "probe '" + probe.name + "': there is no body '" + probe.body + "'",
+                      "name a body of section Bodies");
+      else if (p.materials.count(body->material) && p.materials.at(body->material).is_rigid())
+        section.error("Probes",
+                      "probe '" + probe.name + "': the body '" + probe.body + "' is rigid",
+                      "its motion and load are in history.csv");
+    }
+}
+} // namespace
+
 template <int dim>
 void
 Parameters<dim>::declare(ParameterFile &file)
@@ -79,9 +127,7 @@ Parameters<dim>::declare(ParameterFile &file)
   root.entry("Title", title, "A title for logs and plots.");
   root.entry("Units", units,
              "Names of the units of length, stress and force, as labels of pictures: mm, MPa, N.");
-  if (!units.empty() && split_list(units, ',').size() != 3)
-    root.error("Units", "'" + units + "' are not three names",
-               "give those of length, stress and force, as in mm, MPa, N");
+  check_units(units, root);
 
   ParameterSection grid_section = root.subsection("Grid", "The background grid.");
   grid.declare(grid_section);
@@ -115,17 +161,7 @@ Parameters<dim>::declare(ParameterFile &file)
     = root.subsection("Moving geometry", "Whether bodies move through the grid.");
   moving.declare(moving_section);
 
-  for (const auto &body : bodies)
-    {
-      const auto material = materials.find(body.material);
-      if (material == materials.end())
-        continue;
-      const std::string &law  = material->second.law;
-      const std::string  uses = "the body '" + body.name + "' is of the law '" + law + "'";
-      if (!moving.is_moving && needs_moving_geometry(law))
-        moving_section.error("Update", uses + ", which needs a moving geometry",
-                             "set Update = every step, or choose Law = linear elastic");
-    }
+  check_laws(*this, moving_section);
 
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
@@ -138,18 +174,7 @@ Parameters<dim>::declare(ParameterFile &file)
 
   ParameterSection output_section = root.subsection("Output", "What is written.");
   output.declare(output_section);
-  for (const auto &probe : output.probes)
-    if (std::find(body_names.begin(), body_names.end(), probe.body) == body_names.end())
-      output_section.error("Probes",
-                           "probe '" + probe.name + "': there is no body '" + probe.body + "'",
-                           "name a body of section Bodies");
-  for (const auto &probe : output.probes)
-    for (const auto &body : bodies)
-      if (probe.body == body.name && materials.count(body.material)
-          && materials.at(body.material).is_rigid())
-        output_section.error("Probes",
-                             "probe '" + probe.name + "': the body '" + probe.body + "' is rigid",
-                             "its motion and load are in history.csv");
+  check_probes(*this, output_section);
 
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");

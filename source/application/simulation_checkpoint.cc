@@ -9,6 +9,9 @@
 #include <algorithm>
 
 // How a run is saved and goes on.
+#include <functional>
+#include <numeric>
+
 namespace scree
 {
 namespace
@@ -43,6 +46,12 @@ row_of(const PlacedValues<dim> &values, const unsigned int number, const dealii:
   require(row != nullptr, directory, "the checkpoint belongs to another grid",
           "go on with the version of scree that wrote it (see log.txt), or start the run anew");
   return row;
+}
+
+void
+require_consistent(const bool is_consistent, const std::string &directory)
+{
+  require(is_consistent, directory, "the checkpoint contradicts itself", "start the run anew");
 }
 
 /** That points belong to bodies, are near the grid and no larger than it: else they would be
@@ -245,6 +254,9 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
   const unsigned int n_here = dealii::Utilities::MPI::n_mpi_processes(communicator);
   // In the order of the processes that had them, now for those that are there.
   state.points = MaterialPoints<dim>(state.points.n_internal());
+  require_consistent(saved.bodies.size() == bodies.size(), directory);
+  for (const auto &points : saved.points)
+    require_consistent(points.size() % state.points.n_values() == 0, directory);
   for (unsigned int p = 0; p < saved.points.size(); ++p)
     if (p * n_here / saved.points.size() == rank)
       for (std::size_t i = 0; i < saved.points[p].size(); i += state.points.n_values())
@@ -262,6 +274,10 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
           place_rigid_body(bodies[b], place.pose, lattice_frame(), lattice_margin());
           continue;
         }
+      require_consistent(place.level_set.size()
+                           == std::accumulate(place.n_nodes.begin(), place.n_nodes.end(),
+                                              std::size_t(1), std::multiplies<std::size_t>()),
+                         directory);
       bodies[b].level_set = Lattice<dim>(bodies[b].level_set.frame(), place.lower, place.n_nodes);
       bodies[b].level_set.values() = place.level_set;
       bodies[b].box                = place.box;
@@ -273,9 +289,11 @@ Simulation<dim>::resume_moving(const MovingState<dim> &saved)
     {
       discretise();
     }
-  catch (const dealii::ExceptionBase &)
+  catch (const dealii::ExceptionBase &error)
     {
-      throw UserError(directory, "material points of the checkpoint are not in their bodies",
+      throw UserError(directory,
+                      std::string("the grid of the checkpoint does not fit its bodies and points: ")
+                        + error.what(),
                       "start the run anew");
     }
   results->set_discretization(*fields, *level_set_nodes);
@@ -287,6 +305,7 @@ template <int dim>
 void
 Simulation<dim>::resume_fixed(const FixedState<dim> &saved)
 {
+  require_consistent(saved.trailing.size() == 2 * fields->n_trailing(), directory);
   last_increment = state.displacement;
   for_each_node(*fields,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {

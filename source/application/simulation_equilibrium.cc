@@ -136,7 +136,8 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double
                                      LinearSolver::Vector &du)
 {
   const auto n_contact_points = dealii::Utilities::MPI::sum(contact->points().size(), communicator);
-  if (!is_transient && equilibrium->is_linear_but_for_contact()
+  // Artificial mass and second attempts change what was factorised.
+  if (!is_transient && !is_second_attempt && equilibrium->is_linear_but_for_contact()
       && linear_solver->condenses(fields->n_dofs(), dim * n_contact_points)
       && !equilibrium->has_free_rigid_bodies())
     try
@@ -165,8 +166,8 @@ Simulation<dim>::solve_linear_system(const LinearSolver::Vector &r, const double
 }
 
 template <int dim>
-NewtonResult
-Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
+Newton::Hooks
+Simulation<dim>::newton_hooks(std::pair<double, double> &pressed)
 {
   using Vector = typename Equilibrium<dim>::Vector;
   Newton::Hooks hooks;
@@ -196,7 +197,6 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     return std::max(equilibrium->force_scale(),
                     equilibrium->round_off() / parameters.newton.relative_tolerance);
   };
-  contact->set_touching_holds(true);
   const bool has_mass = !equilibrium->free_bodies().empty();
   hooks.set_mass      = [&, has_mass](const double factor) {
     is_transient = has_mass && factor > Equilibrium<dim>::default_mass_factor;
@@ -204,15 +204,15 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
   };
   hooks.mass_work = [&](const Vector &du) { return equilibrium->artificial_work(du); };
   hooks.freeze    = [&](const bool freeze) { contact->freeze_friction(freeze); };
-  double pressed = 0., most_pressed = 0.; // total of the contact pressures, now and at most
-  hooks.observe = [&](const NewtonIteration &iteration) {
+  hooks.observe   = [&, has_mass](const NewtonIteration &iteration) {
     if (has_mass)
       {
-        pressed = 0.;
+        auto &[now, most] = pressed;
+        now               = 0.;
         for (unsigned int i = 0; i < contact->points().size(); ++i)
-          pressed += contact->points()[i].weight * std::abs(contact->responses()[i].pressure);
-        pressed      = dealii::Utilities::MPI::sum(pressed, communicator);
-        most_pressed = std::max(most_pressed, pressed);
+          now += contact->points()[i].weight * std::abs(contact->responses()[i].pressure);
+        now  = dealii::Utilities::MPI::sum(now, communicator);
+        most = std::max(most, now);
       }
     count_flips();
     const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
@@ -221,19 +221,29 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
     if (parameters.output.log_iterations)
       log.line("  " + text + ", step length " + short_number(iteration.step_length));
     log.progress(step_control.time() / parameters.time.end_time,
-                 "step " + std::to_string(record.step) + ", " + text);
+                   "step " + std::to_string(record.step) + ", " + text);
   };
-  const Vector start(u);
-  const Newton newton(parameters.newton, hooks);
-  NewtonResult result  = newton.solve(u);
-  const auto   is_lost = [&]() { // in a step, not in a part of the overlap
-    return record.step > 0 && result.converged() && pressed < 1e-6 * most_pressed;
+  return hooks;
+}
+
+template <int dim>
+NewtonResult
+Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
+{
+  using Vector = typename Equilibrium<dim>::Vector;
+  contact->set_touching_holds(true);
+  std::pair<double, double> pressed;
+  const Vector              start(u);
+  const Newton              newton(parameters.newton, newton_hooks(pressed));
+  NewtonResult              result  = newton.solve(u);
+  const auto                is_lost = [&]() { // in a step, not in a part of the overlap
+    return record.step > 0 && result.converged() && pressed.first < 1e-6 * pressed.second;
   };
   if (is_lost())
     {
       // Friction may hold what sticks at first.
       Vector       v(start);
-      const double pressed_before = pressed;
+      const double pressed_before = pressed.first;
       contact->set_sticks(true);
       const unsigned int n_sticking = newton.solve(v).iterations;
       contact->set_sticks(false);
@@ -246,8 +256,8 @@ Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &u)
         }
       else
         {
-          pressed = pressed_before;
-          hooks.residual(u, v);
+          pressed.first = pressed_before;
+          equilibrium->residual(u, state.contact, v);
         }
       result.iterations = n_iterations;
     }
@@ -340,6 +350,7 @@ Simulation<dim>::require_equilibrium_exists()
   template LinearSolveResult                 Simulation<dim>::solve_linear_system(                 \
                     const LinearSolver::Vector &, const double, LinearSolver::Vector &);           \
   template std::optional<UserError> Simulation<dim>::slide() const;                                \
+  template Newton::Hooks            Simulation<dim>::newton_hooks(std::pair<double, double> &);    \
   template NewtonResult Simulation<dim>::solve_equilibrium(typename Equilibrium<dim>::Vector &);   \
   template double       Simulation<dim>::unbalanced_part(const double,                             \
                                                          typename FreeBodies<dim>::Coordinates &); \

@@ -101,12 +101,11 @@ template <int dim>
 bool
 Simulation<dim>::close_without_friction()
 {
-  auto u = state.displacement, unloaded = u;
-  equilibrium->set_time(step_control.next_time(), u);
-  unloaded -= u;
-  bool is_closed = unloaded.linfty_norm() == 0.; // nothing is prescribed to move
+  auto u         = state.displacement;
+  bool is_closed = !equilibrium->set_moved(step_control.next_time(), u);
   if (is_closed)
     {
+      record = StepRecord();
       contact->resolve_overlap(std::vector<double>(contact->pairs().size(), 0.));
       is_closed = solve_equilibrium(u).converged();
       if (is_closed && is_moving())

@@ -136,6 +136,42 @@ LeastGap<dim>::minimum(const dealii::Point<dim> &start, const double size) const
 }
 
 template <int dim>
+bool
+LeastGap<dim>::is_least(const dealii::Point<dim> &x, const double least_gap, const Tensor &normal,
+                        const double size) const
+{
+  for (const auto &tangent : surface_tangents<dim>(normal))
+    for (const double offset : {-2., -1.5, -1., -0.5, 0.5, 1., 1.5, 2.})
+      {
+        const double beside = gap(x + offset * size * tangent);
+        if (beside < least_gap - 1e-6 * size || (std::abs(offset) == 0.5 && beside < 0.))
+          return false;
+      }
+  return true;
+}
+
+template <int dim>
+ContactPoint<dim>
+LeastGap<dim>::point_at(const dealii::Point<dim> &x, const double weight,
+                        const ContactPoint<dim> &beside) const
+{
+  ContactPoint<dim> point = beside;
+  point.position          = x;
+  point.weight            = weight;
+  point.initial_gap = point.start_gap = gap(x);
+  point.is_exact = distances.is_known(pair.a, x) && distances.is_known(pair.b, x);
+  if (point.normal_of == NormalOf::both)
+    point.normal = distance(pair.a, x).second - distance(pair.b, x).second;
+  else if (point.normal_of == NormalOf::body_a)
+    point.normal = distances.normal(pair.a, x);
+  else
+    point.normal = -distances.normal(pair.b, x);
+  point.normal /= point.normal.norm();
+  point.start_normal = point.normal;
+  return point;
+}
+
+template <int dim>
 void
 LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points) const
 {
@@ -157,16 +193,10 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
       least->x[d] = inside;
     }
 
-  // Deformed surfaces have small hollows beside their contact; wide contact reaches other points.
   const auto   tangents  = surface_tangents<dim>(first.normal);
   const double least_gap = gap(least->x);
-  for (const auto &tangent : tangents)
-    for (const double offset : {-2., -1.5, -1., -0.5, 0.5, 1., 1.5, 2.})
-      {
-        const double beside = gap(least->x + offset * cell.size * tangent);
-        if (beside < least_gap - 1e-6 * cell.size || (std::abs(offset) == 0.5 && beside < 0.))
-          return;
-      }
+  if (!is_least(least->x, least_gap, first.normal, cell.size))
+    return;
 
   // The points beside it: on the same faces, seen in the tangent plane.
   constexpr double                   same = 0.9; // cosine
@@ -202,20 +232,7 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
     return;
   for (unsigned int i = 0; i < beside.size(); ++i)
     points[beside[i].entry].weight -= omega * lambda[i];
-  ContactPoint<dim> point = first;
-  point.position          = least->x;
-  point.weight            = omega;
-  point.initial_gap = point.start_gap = least_gap;
-  point.is_exact = distances.is_known(pair.a, least->x) && distances.is_known(pair.b, least->x);
-  if (point.normal_of == NormalOf::both)
-    point.normal = distance(pair.a, least->x).second - distance(pair.b, least->x).second;
-  else if (point.normal_of == NormalOf::body_a)
-    point.normal = distances.normal(pair.a, least->x);
-  else
-    point.normal = -distances.normal(pair.b, least->x);
-  point.normal /= point.normal.norm();
-  point.start_normal = point.normal;
-  points.push_back(point);
+  points.push_back(point_at(least->x, omega, first));
 }
 
 template class LeastGap<2>;

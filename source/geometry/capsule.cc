@@ -54,7 +54,7 @@ template <int dim>
 BoundingBox<dim>
 Capsule<dim>::bounding_box() const
 {
-  BoundingBox<dim> result({first, second});
+  BoundingBox<dim> result(std::vector<Point<dim>>{first, second});
   result.extend(radius);
   return result;
 }

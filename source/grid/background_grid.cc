@@ -54,6 +54,56 @@ positive_value(const Expression<dim> &limit, const dealii::Point<dim> &x)
                   "'" + limit.text() + "' is " + number(result) + " at the point " + where.str(),
                   "it must be positive everywhere");
 }
+
+/** That cells are squares or cubes that rounding can tell apart. */
+template <int dim>
+void
+check_shapes_of_cells(const GridParameters<dim> &p, ParameterSection &section)
+{
+  double largest_coordinate = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    largest_coordinate = std::max({largest_coordinate, std::abs(p.lower[d]), std::abs(p.upper[d])});
+  if (!(largest_coordinate < 1e9 * p.cell_size(p.finest_level)) || !(largest_coordinate < 1e100)
+      || !(p.cell_size(p.finest_level) > 1e-100))
+    section.error("Upper corner",
+                  "the box is so far from the origin, or so large or small, that cells of edge "
+                    + number(p.cell_size(p.finest_level)) + " cannot be told apart at "
+                    + number(largest_coordinate),
+                  "move the origin of coordinates near the bodies, and choose usual units");
+  for (unsigned int d = 1; d < dim; ++d)
+    {
+      const double edge = p.cell_size(0), other = (p.upper[d] - p.lower[d]) / p.cells[d];
+      // Corners far from the origin are rounded more than their difference.
+      const double rounding
+        = 4. * std::numeric_limits<double>::epsilon() * largest_coordinate / p.cells[d];
+      if (std::abs(edge - other) > 1e-10 * edge + rounding)
+        section.error("Cells",
+                      "cells are not squares or cubes: edges " + number(edge) + " and "
+                        + number(other),
+                      "change Cells or the corners until (upper - lower)/cells agrees");
+    }
+}
+
+template <int dim>
+void
+check_number_of_cells(const GridParameters<dim> &p, ParameterSection &section)
+{
+  if (p.coarsest_level > p.finest_level)
+    section.error("Coarsest level", "exceeds Finest level", "lower it");
+  // A grid that no memory holds would only show as a run that never starts.
+  double             n_cells = 1.;
+  const unsigned int level
+    = p.refinement == GridRefinement::uniform ? p.finest_level : p.coarsest_level;
+  for (unsigned int d = 0; d < dim; ++d)
+    n_cells *= double(p.cells[d]) * (1u << level);
+  if (n_cells > 1e9)
+    section.error(p.refinement == GridRefinement::uniform ? "Finest level" : "Coarsest level",
+                  "the grid would start with " + number(n_cells) + " cells, more than 1e9",
+                  "lower it or Cells, or set Refinement = contact");
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::log2(double(p.cells[d])) + p.finest_level > 63 / dim - 1)
+      section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
+}
 } // namespace
 
 template <int dim>
@@ -91,42 +141,8 @@ GridParameters<dim>::declare(ParameterSection &section)
         section.error("Upper corner", "must lie above Lower corner in every direction", "");
         return;
       }
-  double largest_coordinate = 0.;
-  for (unsigned int d = 0; d < dim; ++d)
-    largest_coordinate = std::max({largest_coordinate, std::abs(lower[d]), std::abs(upper[d])});
-  if (!(largest_coordinate < 1e9 * cell_size(finest_level)) || !(largest_coordinate < 1e100)
-      || !(cell_size(finest_level) > 1e-100))
-    section.error("Upper corner",
-                  "the box is so far from the origin, or so large or small, that cells of edge "
-                    + number(cell_size(finest_level)) + " cannot be told apart at "
-                    + number(largest_coordinate),
-                  "move the origin of coordinates near the bodies, and choose usual units");
-  for (unsigned int d = 1; d < dim; ++d)
-    {
-      const double edge = cell_size(0), other = (upper[d] - lower[d]) / cells[d];
-      // Corners far from the origin are rounded more than their difference.
-      const double rounding
-        = 4. * std::numeric_limits<double>::epsilon() * largest_coordinate / cells[d];
-      if (std::abs(edge - other) > 1e-10 * edge + rounding)
-        section.error("Cells",
-                      "cells are not squares or cubes: edges " + number(edge) + " and "
-                        + number(other),
-                      "change Cells or the corners until (upper - lower)/cells agrees");
-    }
-  if (coarsest_level > finest_level)
-    section.error("Coarsest level", "exceeds Finest level", "lower it");
-  // A grid that no memory holds would only show as a run that never starts.
-  double             n_cells = 1.;
-  const unsigned int level = refinement == GridRefinement::uniform ? finest_level : coarsest_level;
-  for (unsigned int d = 0; d < dim; ++d)
-    n_cells *= double(cells[d]) * (1u << level);
-  if (n_cells > 1e9)
-    section.error(refinement == GridRefinement::uniform ? "Finest level" : "Coarsest level",
-                  "the grid would start with " + number(n_cells) + " cells, more than 1e9",
-                  "lower it or Cells, or set Refinement = contact");
-  for (unsigned int d = 0; d < dim; ++d)
-    if (std::log2(double(cells[d])) + finest_level > 63 / dim - 1)
-      section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
+  check_shapes_of_cells(*this, section);
+  check_number_of_cells(*this, section);
   if (!cell_size_limit.empty() && refinement == GridRefinement::uniform)
     section.error("Cell size limit", "a uniform grid has no use for it",
                   "set Refinement = contact, or remove it");

@@ -146,6 +146,24 @@ interpolate(const Lattice<dim> &lattice, const Point<dim> &x)
   return sum + cell.outside.norm();
 }
 
+/** Adds the distance to the nodes, along `outside`, to what is known at their edge. */
+template <int dim>
+void
+add_distance(const Tensor<1, dim> &outside, LevelSetExpansion<dim> &result)
+{
+  const double distance = outside.norm();
+  if (distance == 0.)
+    return;
+  result.value += distance;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (outside[d] != 0)
+      {
+        result.gradient[d] = outside[d] / distance;
+        for (unsigned int e = 0; e < dim; ++e)
+          result.hessian[d][e] = 0;
+      }
+}
+
 // The sums over the rows of a cell: the derivatives of order i in x, j in y (and k in z).
 template <int dim, int n>
 LevelSetExpansion<dim>
@@ -208,19 +226,7 @@ interpolate_expansion(const Lattice<dim> &lattice, const Point<dim> &x)
       result.hessian[1][2] = fyz / (h * h);
       result.hessian[2][2] = fzz / (h * h);
     }
-
-  const double distance = cell.outside.norm();
-  if (distance > 0)
-    {
-      result.value += distance;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (cell.outside[d] != 0)
-          {
-            result.gradient[d] = cell.outside[d] / distance;
-            for (unsigned int e = 0; e < dim; ++e)
-              result.hessian[d][e] = 0;
-          }
-    }
+  add_distance(cell.outside, result);
   return result;
 }
 } // namespace

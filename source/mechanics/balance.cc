@@ -11,6 +11,8 @@ namespace scree
 {
 namespace
 {
+using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
 /** Sums over the own nodes of a body, for one reduction: see the functions below. */
 template <int dim>
 struct NodeSums
@@ -58,18 +60,13 @@ rotation_of(const NodeSums<dim> &sums)
       return (invert(inertia) * angular).norm();
     }
 }
-} // namespace
 
+/** Of the nodes of each body on this process, with the forces at them. */
 template <int dim>
-std::vector<BodyBalance<dim>>
-Equilibrium<dim>::balance(const Vector &u) const
+std::vector<NodeSums<dim>>
+node_sums(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, const Vector &u,
+          const Vector &contact_forces, const Vector &body_forces)
 {
-  Vector body_forces(contact_forces), held(internal_forces);
-  body_forces = 0.;
-  bulk.add_body_forces(body_forces, time);
-  body_forces.compress(dealii::VectorOperation::add);
-  reactions(held);
-
   std::vector<NodeSums<dim>> sums(bodies.size());
   std::vector<bool>          is_known(fields.owned().n_elements(), false);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
@@ -106,6 +103,39 @@ Equilibrium<dim>::balance(const Vector &u) const
           sum.scale += contact_force.norm() + body_force.norm();
         }
     }
+  return sums;
+}
+
+/** @param sum over all processes */
+template <int dim>
+BodyBalance<dim>
+balance_of(const NodeSums<dim> &sum, const Body<dim> &body, const unsigned int number)
+{
+  const dealii::Tensor<1, dim> mean   = sum.x / sum.n;
+  const dealii::Point<dim>     centre = body.box.center() + mean;
+  BodyBalance<dim>             result;
+  result.body        = number;
+  result.force       = sum.force;
+  result.moment      = sum.moment - moment_of<dim>(centre, sum.force);
+  result.force_scale = sum.scale;
+  result.n_nodes     = sum.n;
+  result.radius      = std::sqrt(trace(sum.x_x) / sum.n - mean.norm_square());
+  result.rotation    = rotation_of(sum);
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::vector<BodyBalance<dim>>
+Equilibrium<dim>::balance(const Vector &u) const
+{
+  Vector body_forces(contact_forces), held(internal_forces);
+  body_forces = 0.;
+  bulk.add_body_forces(body_forces, time);
+  body_forces.compress(dealii::VectorOperation::add);
+  reactions(held);
+
+  auto sums = node_sums(fields, bodies, u, contact_forces, body_forces);
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
     {
       const auto &region    = boundary_terms.regions()[r];
@@ -133,19 +163,8 @@ Equilibrium<dim>::balance(const Vector &u) const
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid() && sums[b].n > 0.)
       {
-        const NodeSums<dim>         &sum    = sums[b];
-        const dealii::Tensor<1, dim> mean   = sum.x / sum.n;
-        const dealii::Point<dim>     centre = bodies[b].box.center() + mean;
-        BodyBalance<dim>             balance;
-        balance.body        = b;
-        balance.force       = sum.force;
-        balance.moment      = sum.moment - moment_of<dim>(centre, sum.force);
-        balance.force_scale = sum.scale;
-        balance.n_nodes     = sum.n;
-        balance.radius      = std::sqrt(trace(sum.x_x) / sum.n - mean.norm_square());
-        balance.rotation    = rotation_of(sum);
-        balance.largest_u   = largest[b];
-        result.push_back(balance);
+        result.push_back(balance_of(sums[b], bodies[b], b));
+        result.back().largest_u = largest[b];
       }
   return result;
 }

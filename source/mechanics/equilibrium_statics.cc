@@ -82,6 +82,21 @@ Equilibrium<dim>::set_artificial_mass(const double factor)
 }
 
 template <int dim>
+bool
+Equilibrium<dim>::set_moved(const double new_time, Vector &u)
+{
+  Vector before(u);
+  set_time(accepted_time, before);
+  Vector change(loads);
+  change -= dead_loads;
+  set_time(new_time, u);
+  change -= loads;
+  change += dead_loads;
+  before -= u;
+  return before.linfty_norm() != 0. || change.linfty_norm() != 0.;
+}
+
+template <int dim>
 void
 Equilibrium<dim>::set_drag(const double factor)
 {
@@ -229,6 +244,7 @@ Equilibrium<dim>::turn(Vector &u) const
   template double                Equilibrium<dim>::held_moment(const unsigned int) const;      \
   template bool                  Equilibrium<dim>::is_geometric(const Vector &, double) const; \
   template bool                  Equilibrium<dim>::turns_infinitesimally() const;              \
+  template bool                  Equilibrium<dim>::set_moved(const double, Vector &);          \
   template void                  Equilibrium<dim>::set_up_artificial_mass();                   \
   template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const;    \
   template void                  Equilibrium<dim>::turn(Vector &) const;                       \

@@ -19,6 +19,28 @@ PointSearch<dim>::bin_of(const Bins &bins, const Point<dim> &x) const
 }
 
 template <int dim>
+std::size_t
+PointSearch<dim>::Bins::divide(double size, const std::size_t n_points)
+{
+  const auto count = [&](const double size) {
+    double product = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      product *= std::floor((upper[d] - lower[d]) / size) + 1.;
+    return product;
+  };
+  while (count(size) > 4. * n_points + 1.)
+    size *= 1.25;
+  std::size_t n_bins = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      n[d] = static_cast<int>((upper[d] - lower[d]) / size) + 1;
+      n_bins *= n[d];
+    }
+  inverse_size = 1. / size;
+  return n_bins;
+}
+
+template <int dim>
 PointSearch<dim>::PointSearch(const std::vector<Point<dim>>   &positions,
                               const std::vector<unsigned int> &body, const double bin_size)
 {
@@ -52,24 +74,8 @@ PointSearch<dim>::PointSearch(const std::vector<Point<dim>>   &positions,
       Bins &bins = body_bins[b];
       if (bins.empty)
         continue;
-      const auto count = [&](const double size) {
-        double n = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          n *= std::floor((bins.upper[d] - bins.lower[d]) / size) + 1.;
-        return n;
-      };
-      double size = bin_size;
-      while (count(size) > 4. * n_points_of[b] + 1.)
-        size *= 1.25;
-      std::size_t n = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          bins.n[d] = static_cast<int>((bins.upper[d] - bins.lower[d]) / size) + 1;
-          n *= bins.n[d];
-        }
-      bins.inverse_size = 1. / size;
-      bins.first_bin    = n_bins;
-      n_bins += n;
+      bins.first_bin = n_bins;
+      n_bins += bins.divide(bin_size, n_points_of[b]);
     }
 
   begin.assign(n_bins + 1, 0);

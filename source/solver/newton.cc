@@ -129,10 +129,11 @@ struct Newton::Step
 /** What the method of the iteration is. */
 struct Newton::Progress
 {
-  bool         is_transient = false; //!< the first part of a round
-  bool         is_later     = false; //!< in a round
-  double       mass         = 0.;    //!< s
-  unsigned int iterations   = 0;     //!< before this method
+  bool         is_transient  = false; //!< the first part of a round
+  bool         is_later      = false; //!< in a round
+  double       mass          = 0.;    //!< s
+  unsigned int iterations    = 0;     //!< before this method
+  unsigned int n_short_steps = 0;     //!< in a row
 
   /** Makes s smaller after a long step, larger after a short one. */
   void adapt(const double alpha)
@@ -142,6 +143,13 @@ struct Newton::Progress
     else if (alpha < 0.2)
       mass = std::min(largest_mass, mass_growth * mass);
   }
+};
+
+/** The end of an iteration. */
+struct Newton::End
+{
+  NewtonStatus status;
+  const char  *format; //!< of the message: iteration, residual, tolerance
 };
 
 Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
@@ -300,62 +308,66 @@ Newton::solve(Vector &u) const
   return result;
 }
 
+std::optional<Newton::End>
+Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
+               const Progress &progress, const Vector &u, const Vector &r) const
+{
+  const double residual = iteration.residual;
+  if (std::isfinite(residual) && residual <= iteration.tolerance)
+    return End{NewtonStatus::converged, "converged in %u iterations, |r| = %.3e <= %.3e"};
+  if (!std::isfinite(residual)
+      || residual > divergence_factor * std::max(residuals.front(), iteration.reference))
+    return End{NewtonStatus::diverged, "diverged in iteration %u, |r| = %.3e (tolerance %.3e)"};
+  if (is_plateau(residuals) && is_round_off(iteration, u.l2_norm()))
+    return End{NewtonStatus::converged_at_round_off,
+               "ended at round-off in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  if (is_plateau(residuals) && hooks.is_geometric && hooks.is_geometric(r, iteration.tolerance))
+    return End{
+      NewtonStatus::converged_at_round_off,
+      "ended at the accuracy of the geometry in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  if (progress.is_transient
+      && (residuals.size() > transient_iterations
+          || residual <= transient_reduction * residuals.front()))
+    return End{NewtonStatus::stalled, "frozen friction: iteration %u, |r| = %.3e (tolerance %.3e)"};
+  if (hooks.set_mass && !progress.is_transient
+      && (is_stalled(residuals) || progress.n_short_steps >= max_short_steps))
+    return End{NewtonStatus::stalled, "stalled in iteration %u, |r| = %.3e (tolerance %.3e)"};
+  if (iteration.number >= parameters.max_iterations)
+    return End{NewtonStatus::max_iterations,
+               "not converged in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  return {};
+}
+
 NewtonResult
 Newton::iterate(Vector &u, Progress &progress) const
 {
   NewtonResult    result;
   NewtonIteration iteration;
   iteration.number = progress.iterations;
-  Vector       r(u), du(u);
-  double       linear_tolerance = parameters.loosest_linear_tolerance;
-  unsigned int n_short_steps    = 0;
+  Vector r(u), du(u);
+  double linear_tolerance = parameters.loosest_linear_tolerance;
+  progress.n_short_steps  = 0;
   hooks.residual(u, r);
   balance(u, r);
   iteration.residual = r.l2_norm();
 
-  const auto ended_as = [&](const NewtonStatus status, const std::string &message) {
-    result.status  = status;
-    result.message = message;
-    return result;
-  };
-
   for (;; ++iteration.number)
     {
-      const double reference = hooks.reference();
+      iteration.reference = hooks.reference();
       iteration.tolerance
-        = parameters.relative_tolerance * reference + parameters.absolute_tolerance;
+        = parameters.relative_tolerance * iteration.reference + parameters.absolute_tolerance;
       result.residuals.push_back(iteration.residual);
       result.iterations = iteration.number;
       if (hooks.observe)
         hooks.observe(iteration);
 
-      const auto told = [&](const char *format) {
-        return in_words(format, iteration.number, iteration.residual, iteration.tolerance);
-      };
-      if (std::isfinite(iteration.residual) && iteration.residual <= iteration.tolerance)
-        return ended_as(NewtonStatus::converged,
-                        told("converged in %u iterations, |r| = %.3e <= %.3e"));
-      if (!std::isfinite(iteration.residual)
-          || iteration.residual > divergence_factor * std::max(result.residuals.front(), reference))
-        return ended_as(NewtonStatus::diverged,
-                        told("diverged in iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (is_plateau(result.residuals)
-          && (is_round_off(iteration, u.l2_norm())
-              || (hooks.is_geometric && hooks.is_geometric(r, iteration.tolerance))))
-        return ended_as(NewtonStatus::converged_at_round_off,
-                        told("ended at round-off in %u iterations, |r| = %.3e (tolerance %.3e)"));
-      if (progress.is_transient
-          && (result.residuals.size() > transient_iterations
-              || iteration.residual <= transient_reduction * result.residuals.front()))
-        return ended_as(NewtonStatus::stalled,
-                        told("frozen friction: iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (hooks.set_mass && !progress.is_transient
-          && (is_stalled(result.residuals) || n_short_steps >= max_short_steps))
-        return ended_as(NewtonStatus::stalled,
-                        told("stalled in iteration %u, |r| = %.3e (tolerance %.3e)"));
-      if (iteration.number >= parameters.max_iterations)
-        return ended_as(NewtonStatus::max_iterations,
-                        told("not converged in %u iterations, |r| = %.3e (tolerance %.3e)"));
+      if (const auto end = end_of(iteration, result.residuals, progress, u, r))
+        {
+          result.status = end->status;
+          result.message
+            = in_words(end->format, iteration.number, iteration.residual, iteration.tolerance);
+          return result;
+        }
 
       linear_tolerance = forcing_term(result.residuals, linear_tolerance, iteration.tolerance,
                                       parameters.loosest_linear_tolerance);
@@ -368,7 +380,9 @@ Newton::iterate(Vector &u, Progress &progress) const
       catch (const LinearSolverFailure &failure)
         {
           ++result.iterations;
-          return ended_as(NewtonStatus::linear_solver_failure, failure.what());
+          result.status  = NewtonStatus::linear_solver_failure;
+          result.message = failure.what();
+          return result;
         }
 
       const Step step = progress.is_transient ? search_energy(u, du, r, progress)
@@ -378,7 +392,7 @@ Newton::iterate(Vector &u, Progress &progress) const
       u                           = step.u;
       r                           = step.r;
       iteration.residual          = balance(u, r) ? r.l2_norm() : step.norm;
-      n_short_steps               = step.alpha < short_step ? n_short_steps + 1 : 0;
+      progress.n_short_steps      = step.alpha < short_step ? progress.n_short_steps + 1 : 0;
       iteration.step_length       = step.alpha;
       iteration.increment         = step.alpha * du.l2_norm();
       iteration.extra_evaluations = step.evaluations - 1;

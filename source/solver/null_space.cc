@@ -57,9 +57,9 @@ rotate_to_ritz_vectors(const dealii::SparseMatrix<double> &A, std::vector<Vector
   return values;
 }
 
-/** Lowest Ritz vectors in a subspace, one of them above the limit unless the subspace is too small;
- * returns the Ritz values. */
-Vector
+/** Lowest Ritz vectors in a subspace; returns the Ritz values, empty if the subspace is too small
+ * to have one above the limit or the iteration does not end. */
+std::vector<double>
 iterate(const dealii::SparseMatrix<double> &A, const dealii::SparseDirectUMFPACK &inverse,
         const double limit, std::vector<Vector> &basis)
 {
@@ -75,14 +75,14 @@ iterate(const dealii::SparseMatrix<double> &A, const dealii::SparseDirectUMFPACK
       const unsigned int n_below
         = std::upper_bound(values.begin(), values.end(), limit) - values.begin();
       if (n_below == basis.size())
-        break;
+        return {};
       bool is_steady = iteration > 0;
       for (unsigned int i = 0; i <= n_below; ++i)
         is_steady &= std::abs(values[i] - before[i]) <= steady * std::max(limit, values[i]);
       if (is_steady)
-        break;
+        return {values.begin(), values.end()};
     }
-  return values;
+  return {};
 }
 
 std::vector<Vector>
@@ -135,9 +135,9 @@ null_space(const dealii::SparseMatrix<double> &A, const double limit)
   inverse.initialize(shifted);
   for (unsigned int size = first_size; size < n / 2; size *= 2)
     {
-      auto         basis  = random_vectors(n, size);
-      const Vector values = iterate(A, inverse, limit, basis);
-      if (values[size - 1] <= limit)
+      auto       basis  = random_vectors(n, size);
+      const auto values = iterate(A, inverse, limit, basis);
+      if (values.empty())
         continue;
       const unsigned int n_below
         = std::upper_bound(values.begin(), values.end(), limit) - values.begin();

@@ -289,6 +289,13 @@ TEST(Shapes, Capsule)
            : s > a.distance(b) ? x.distance(b) < 0.5
                                : std::abs((x - a) * across) < 0.5;
   });
+  for (const double mirror : {1., -1.})
+    {
+      const Point<2> p(a[0], mirror * a[1]), q(b[0], mirror * b[1]);
+      for (const auto &capsule : {Capsule<2>(p, q, 0.5), Capsule<2>(q, p, 0.5)})
+        for (const Point<2> &y : boundary)
+          EXPECT_TRUE(capsule.bounding_box().point_inside({y[0], mirror * y[1]}, 1e-12)) << y;
+    }
   EXPECT_NEAR(
     Capsule<3>(Point<3>(0, 0, -1), Point<3>(0, 0, 1), 0.25).signed_distance({0.3, 0.4, 0.7}), 0.25,
     1e-14);

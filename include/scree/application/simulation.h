@@ -97,16 +97,13 @@ private:
     return parameters.moving.is_moving;
   }
   // Moving geometry, simulation_moving.cc.
-  /** Material points of a new run, or those that moved, on their processes; what they say of the
-   * start of the step. */
+  /** Material points, new or moved, on their processes, and what they say of the step's start. */
   void set_up_points();
   void seed_points();
   /** Begins a step on the new geometry, see State::step_end. */
-  void start_step();
-  /** m of the m^dim material points of a cell. */
-  unsigned int points_per_direction() const;
-  /** Divides points of finer cells than those they were made for. */
-  void divide_points();
+  void         start_step();
+  unsigned int points_per_direction() const; //!< m of the m^dim points of a cell
+  void         divide_points();              //!< of finer cells than they were made for
   /** Moves the bodies by the last step and begins the next one. */
   void move_geometry();
   /** Compares with the totals of the step before. */
@@ -175,6 +172,8 @@ private:
   /** What to tell if bodies on a fixed geometry slipped by more than a cell per nominal step. */
   std::optional<UserError> slide() const;
   NewtonResult             solve_equilibrium(typename Equilibrium<dim>::Vector &u);
+  /** @param pressed the contact pressures, added up: now and at most */
+  Newton::Hooks newton_hooks(std::pair<double, double> &pressed);
   /** Solves K du = r to |r - K du| <= tolerance |r| or better, condensed to the contact points
    * where that pays. */
   LinearSolveResult solve_linear_system(const LinearSolver::Vector &r, const double tolerance,

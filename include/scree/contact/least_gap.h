@@ -52,6 +52,17 @@ private:
    * cell. */
   std::optional<Minimum> minimum(const dealii::Point<dim> &x, const double size) const;
 
+  /**
+   * Whether the gap at x is the least two cells around and open half a cell from there: deformed
+   * surfaces have small hollows beside their contact, wide contact reaches other points.
+   */
+  bool is_least(const dealii::Point<dim> &x, const double least_gap, const Tensor &normal,
+                const double size) const;
+
+  /** A contact point of this weight there, on the same faces as `beside`. */
+  ContactPoint<dim> point_at(const dealii::Point<dim> &x, const double weight,
+                             const ContactPoint<dim> &beside) const;
+
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;
   const ContactPair            &pair;

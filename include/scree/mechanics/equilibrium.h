@@ -58,9 +58,10 @@ public:
 
   /** Computes the loads of time `time` and sets the prescribed unknowns of `u`. */
   void set_time(const double time, Vector &u);
-
   /** The same for time 0 without loads, until the next call; false: something is prescribed. */
   bool set_unloaded(Vector &u);
+  /** set_time(); whether another motion is prescribed there than at the accepted time. */
+  bool set_moved(const double time, Vector &u);
 
   /** Takes what the accepted state stores as external work: bodies that overlap were assembled. */
   void count_overlap();
@@ -71,11 +72,10 @@ public:
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
 
-  /** r(u) with the contact history of the start of the step; zero on prescribed and hanging rows.
-   */
+  /** r(u) with the contact history at the start of the step; 0 on prescribed and hanging rows. */
   void residual(const Vector &u, const ContactHistory<dim> &history, Vector &r);
 
-  /** K at the u of the last residual(), prescribed rows and columns eliminated. */
+  /** K at the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
 
   /** @param only_closed glues the points that are closed at the last residual(), not all */
@@ -132,7 +132,7 @@ public:
   /** Then makes the rigid motions of u finite ones (collective). */
   void turn(Vector &u) const;
 
-  /** Moment on a body that residual() left out, over half the size of the body [force]. */
+  /** Moment on a body that residual() left out, over half its size [force]. */
   double held_moment(const unsigned int body) const;
   /** Whether r, of the last residual(), is at most `tolerance` but for moments below the accuracy
    * of geometry: 1e-4 of FreeBodies::misplaced_moments() (collective). */

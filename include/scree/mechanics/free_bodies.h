@@ -70,8 +70,8 @@ public:
    * last evaluation resists only because it acts at points: Z^T M = Z^T F, Z the motions that it
    * resists by less than (h/2L)^2 of what a body's contacts do at most, L half the size of the
    * body. Contact points are up to half a spacing beside where contact should act, so that M of a
-   * body is at most h/4 times the sum of the contact forces on it; larger ones are scaled down
-   * together (collective).
+   * body is at most h/4 times the sum of the contact forces on it (1e-3 L on a fixed geometry,
+   * h/2 = 2e-3 L in the other bound); larger ones are scaled down together (collective).
    *
    * @param share of that bound
    */

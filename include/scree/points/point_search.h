@@ -70,6 +70,10 @@ private:
       // In this order what is no number has a place, too.
       return place > 0. ? (place < n[d] ? static_cast<int>(place) : n[d] - 1) : 0;
     }
+
+    /** Chooses n for bins of `size`, larger ones if they would outnumber the points by four: the
+     * number of bins. */
+    std::size_t divide(double size, const std::size_t n_points);
   };
 
   std::size_t bin_of(const Bins &bins, const dealii::Point<dim> &x) const;

@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct NewtonIteration
 
   /** |r|_2 after the update, in the unit of the residual. */
   double residual = 0;
+
+  /** The norm of forces that the tolerance is relative to. */
+  double reference = 0;
 
   /** The |r|_2 that would be accepted now. */
   double tolerance = 0;
@@ -104,8 +108,8 @@ struct NewtonResult
  * supplies the reference, a norm of forces at the present u. The size of du alone never ends the
  * iteration. A residual that round-off keeps above the tolerance is accepted
  * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
- * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2; or if it did not fall
- * and a hook says that only the accuracy of the geometry is left.
+ * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2; or if it did not
+ * fall either and a hook says that only the accuracy of the geometry is left.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -204,8 +208,13 @@ public:
 private:
   struct Step;
   struct Progress;
+  struct End;
 
   NewtonResult iterate(Vector &u, Progress &progress) const;
+
+  /** How the iteration ends here, if it does. */
+  std::optional<End> end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
+                            const Progress &progress, const Vector &u, const Vector &r) const;
 
   Step search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const;
 
