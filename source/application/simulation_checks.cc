@@ -1,5 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
+#include <scree/contact/contact_reach.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -123,6 +124,18 @@ Simulation<dim>::require_balance(const typename Equilibrium<dim>::Vector &u)
 
 template <int dim>
 void
+Simulation<dim>::warn_of_meetings(const typename Equilibrium<dim>::Vector &u)
+{
+  for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
+                                                  equilibrium->largest_displacements(u)))
+    if (warned_pairs.insert(pair).second)
+      log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
+               + " may have met, but were too far apart at the start for contact between them; "
+                 "raise Contact/Shift if they should touch");
+}
+
+template <int dim>
+void
 Simulation<dim>::warn_of_rotations(const std::vector<BodyBalance<dim>>     &balances,
                                    const typename Equilibrium<dim>::Vector &u)
 {
@@ -213,6 +226,7 @@ Simulation<dim>::require_inside_box() const
     const typename Equilibrium<dim>::Vector &);                                                    \
   template void Simulation<dim>::warn_of_rotations(const std::vector<BodyBalance<dim>> &,          \
                                                    const typename Equilibrium<dim>::Vector &);     \
+  template void Simulation<dim>::warn_of_meetings(const typename Equilibrium<dim>::Vector &);      \
   template void Simulation<dim>::require_prescribable();                                           \
   template void Simulation<dim>::require_inside_box() const;
 

@@ -124,6 +124,7 @@ private:
   std::vector<BodyBalance<dim>> require_balance(const typename Equilibrium<dim>::Vector &u);
   [[noreturn]] void             throw_out_of_balance(const BodyBalance<dim> &balance,
                                                      const bool              is_force) const;
+  void warn_of_meetings(const typename Equilibrium<dim>::Vector &u); //!< beyond the contact search
   /** Tells once of each body that it turned too far for linear kinematics. */
   void warn_of_rotations(const std::vector<BodyBalance<dim>>     &balances,
                          const typename Equilibrium<dim>::Vector &u);
@@ -135,7 +136,7 @@ private:
   /** Writes a checkpoint if one is due after an accepted step; a failure is told in the log. */
   void save_if_due();
   void save();
-  /** Ends a run that a signal asked to end, with a checkpoint (collective). @throws Interrupted */
+  /** Saves and @throws Interrupted if a signal asked for it (collective). */
   void            end_if_interrupted();
   Checkpoint<dim> collect() const;
   FixedState<dim> collect_fixed() const;
@@ -236,6 +237,7 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
+  bool                                 has_fallen         = false; //!< free bodies, in the step
   bool is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
   bool is_too_large      = false; //!< the solution of the step, for the moving geometry
   /** Told once; (b, b): at the box, (b, none): out of balance, (b, a), b > a: under-resolved. */
