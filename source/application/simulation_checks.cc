@@ -126,8 +126,10 @@ template <int dim>
 void
 Simulation<dim>::warn_of_meetings(const typename Equilibrium<dim>::Vector &u)
 {
-  for (const auto &pair : pairs_that_may_have_met(bodies, contact->pairs(), parameters.contact,
-                                                  equilibrium->largest_displacements(u)))
+  const double reach = 2. * parameters.contact.shift * grid->finest_size();
+  for (const auto &pair :
+       pairs_that_may_have_met(bodies, *contact, parameters.contact, reach,
+                               equilibrium->largest_displacements(u), communicator))
     if (warned_pairs.insert(pair).second)
       log.line("Warning: " + bodies[pair.first].name + " and " + bodies[pair.second].name
                + " may have met, but were too far apart at the start for contact between them; "

@@ -30,14 +30,16 @@ private:
   std::streambuf *buffer;
 };
 
-/** muParser's sentence out of deal.II's message, which breaks it into lines. */
+/** muParser's sentence out of deal.II's message, which breaks it into lines and traces the stack.
+ */
 std::string
 reason_of(const std::string &message)
 {
   const auto begin = message.find("said:");
   if (begin == std::string::npos)
     return "";
-  std::string reason = message.substr(begin + 5, message.find('<', begin) - begin - 5);
+  const auto  end    = std::min(message.find('<', begin), message.find("Stacktrace", begin));
+  std::string reason = message.substr(begin + 5, end - begin - 5);
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   std::string result;
   for (const char c : reason)

@@ -29,12 +29,18 @@ require_contact_within_reach(const ContactPoints<dim> &contact, const double shi
 
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>>
-pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                        const ContactParameters &parameters, const std::vector<double> &motion)
+pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const ContactPoints<dim> &contact,
+                        const ContactParameters &parameters, const double reach,
+                        const std::vector<double> &motion, const MPI_Comm communicator)
 {
+  std::vector<unsigned int> n_points(contact.pairs().size());
+  for (const ContactPoint<dim> &point : contact.points())
+    ++n_points[point.pair];
+  dealii::Utilities::MPI::sum(n_points, communicator, n_points);
   std::set<std::pair<unsigned int, unsigned int>> watched;
-  for (const ContactPair &pair : pairs)
-    watched.insert({pair.a, pair.b});
+  for (unsigned int p = 0; p < n_points.size(); ++p)
+    if (n_points[p] > 0)
+      watched.insert({contact.pairs()[p].a, contact.pairs()[p].b});
   std::vector<dealii::BoundingBox<dim>> reached;
   for (unsigned int b = 0; b < bodies.size(); ++b)
     {
@@ -43,7 +49,7 @@ pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<
     }
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (const auto &pair : BodyBoxes<dim>(reached).pairs(0.))
-    if (watched.count(pair) == 0
+    if (watched.count(pair) == 0 && motion[pair.first] + motion[pair.second] > reach
         && parameters.law_of(bodies[pair.first].name, bodies[pair.second].name).law
              != ContactLaw::none)
       result.push_back(pair);
@@ -102,15 +108,15 @@ under_resolved_pairs(const ContactPoints<dim> &contact, const MPI_Comm communica
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template void require_contact_within_reach(const ContactPoints<dim> &, const double,           \
-                                             const MPI_Comm);                                    \
-  template std::vector<std::pair<unsigned int, unsigned int>> pairs_that_may_have_met(           \
-    const std::vector<Body<dim>> &, const std::vector<ContactPair> &, const ContactParameters &, \
-    const std::vector<double> &);                                                                \
-  template void                      require_distinct(const std::vector<Body<dim>> &,            \
-                                                      const std::vector<ContactPair> &);         \
-  template std::vector<unsigned int> under_resolved_pairs(const ContactPoints<dim> &,            \
+#define SCREE_INSTANTIATE(dim)                                                             \
+  template void require_contact_within_reach(const ContactPoints<dim> &, const double,     \
+                                             const MPI_Comm);                              \
+  template std::vector<std::pair<unsigned int, unsigned int>> pairs_that_may_have_met(     \
+    const std::vector<Body<dim>> &, const ContactPoints<dim> &, const ContactParameters &, \
+    const double, const std::vector<double> &, const MPI_Comm);                            \
+  template void                      require_distinct(const std::vector<Body<dim>> &,      \
+                                                      const std::vector<ContactPair> &);   \
+  template std::vector<unsigned int> under_resolved_pairs(const ContactPoints<dim> &,      \
                                                           const MPI_Comm);
 
 SCREE_INSTANTIATE(2)

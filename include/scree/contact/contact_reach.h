@@ -19,15 +19,18 @@ void require_contact_within_reach(const ContactPoints<dim> &contact, const doubl
                                   const MPI_Comm communicator);
 
 /**
- * Pairs that may have met although no contact was looked for between them: their boxes, widened by
- * the largest displacement of each body, intersect.
+ * Pairs that may have met although they have no contact points: their boxes, widened by the largest
+ * displacement of each body, intersect, and both displacements exceed the reach of contact together
+ * (collective).
  *
+ * @param reach  largest initial gap of contact points [L]
  * @param motion largest |u| of each body [L]
  */
 template <int dim>
 std::vector<std::pair<unsigned int, unsigned int>>
-pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
-                        const ContactParameters &parameters, const std::vector<double> &motion);
+pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const ContactPoints<dim> &contact,
+                        const ContactParameters &parameters, const double reach,
+                        const std::vector<double> &motion, const MPI_Comm communicator);
 
 /**
  * Bodies that coincide or lie inside one another have no surface between them.
