@@ -74,7 +74,6 @@ Simulation<dim>::solve_step(const double time)
   record.step             = step;
   record.time             = time;
   is_too_large            = false;
-  has_fallen              = false;
   equilibrium->set_second_attempt(is_second_attempt);
   auto               u      = first_guess(time);
   const NewtonResult result = solve_equilibrium(u);
@@ -101,10 +100,7 @@ Simulation<dim>::solve_step(const double time)
           return false;
         }
     }
-  const double lack = equilibrium->energies().balance_error();
   equilibrium->accept(u, state.contact);
-  if (has_fallen && !is_moving())
-    equilibrium->count_as_transfer(lack);
   require_contact_within_reach(*contact, parameters.contact.shift * grid->finest_size(),
                                communicator);
   if (is_moving())
@@ -181,7 +177,6 @@ Simulation<dim>::newton_hooks(std::pair<double, double> &pressed)
     const bool has_moved = equilibrium->balance_rigid_motions(u, state.contact).has_value();
     if (has_moved)
       equilibrium->set_prescribed(u);
-    has_fallen |= has_moved;
     return has_moved;
   };
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {

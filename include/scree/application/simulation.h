@@ -237,7 +237,6 @@ private:
   std::set<unsigned int>               told_as_loose;  //!< bodies
   bool                                 geometry_has_moved = false;
   bool                                 is_transient       = false; //!< K has more artificial mass
-  bool                                 has_fallen         = false; //!< free bodies, in the step
   bool is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
   bool is_too_large      = false; //!< the solution of the step, for the moving geometry
   /** Told once; (b, b): at the box, (b, none): out of balance, (b, a), b > a: under-resolved. */
