@@ -254,17 +254,19 @@ class RunResults:
         rows = np.flatnonzero(history["step"] == step)
         return history["time"][rows[0]] if rows.size else None
 
+    def log(self):
+        """The text of the log; empty without one."""
+        path = self.directory / "log.txt"
+        return path.read_text(encoding="utf-8") if path.exists() else ""
+
     def starts_unloaded(self):
         """Whether no bodies overlap at the start, by the gaps that the log tells."""
-        log = self.directory / "log.txt"
-        text = log.read_text(encoding="utf-8") if log.exists() else ""
-        return not re.search("overlap at the start", text)
+        return "overlap at the start" not in self.log()
 
     def friction_coefficients(self):
         """{name: friction coefficient} of the contact pairs, nan without Coulomb friction; the log tells the law."""
         pairs = {}
-        log = self.directory / "log.txt"
-        for line in log.read_text(encoding="utf-8").splitlines() if log.exists() else []:
+        for line in self.log().splitlines():
             match = re.match(r"Contact (.+): (\w+) \('(.*)'\)", line)
             if match:
                 name, law, section = match.groups()

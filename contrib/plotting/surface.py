@@ -124,7 +124,8 @@ def section_triangles(mesh, axis, position):
 
 
 def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis"):
-    """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the corner between x and -y. Figure, axes, and the colours for a bar."""
+    """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the
+    corner between x and -y. Figure, axes, and the colours for a bar."""
     view = View()
     triangles = surface_triangles(mesh)
     plane, nearness = view.project(deformed)

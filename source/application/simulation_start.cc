@@ -101,35 +101,30 @@ template <int dim>
 bool
 Simulation<dim>::close_without_friction()
 {
-  auto u         = state.displacement;
-  bool is_closed = !equilibrium->set_moved(step_control.next_time(), u);
-  if (is_closed)
+  auto u = state.displacement, unused = u;
+  if (equilibrium->set_moved(step_control.next_time(), u))
     {
-      record = StepRecord();
-      contact->resolve_overlap(std::vector<double>(contact->pairs().size(), 0.));
-      is_closed = solve_equilibrium(u).converged();
-      if (is_closed && is_moving())
-        {
-          equilibrium->turn(u);
-          points_at_end = moved_points(u);
-          is_closed     = why_too_large().empty();
-        }
-      if (is_closed)
-        {
-          const double lack = equilibrium->energies().balance_error();
-          equilibrium->accept(u, state.contact);
-          equilibrium->count_as_transfer(lack);
-        }
-      contact->resolve_overlap({});
+      equilibrium->set_time(state.time, unused);
+      return false;
     }
-  auto unused = u;
+  record = StepRecord();
+  contact->resolve_overlap(std::vector<double>(contact->pairs().size(), 0.));
+  bool is_closed = solve_equilibrium(u).converged();
+  if (is_closed && is_moving())
+    {
+      equilibrium->turn(u);
+      points_at_end = moved_points(u);
+      is_closed     = why_too_large().empty();
+    }
+  if (is_closed)
+    equilibrium->accept_as_transfer(u, state.contact);
+  contact->resolve_overlap({});
   equilibrium->set_time(state.time, unused);
-  if (is_closed)
-    {
-      log.line("  the loads close contact without friction, which begins there");
-      go_on_from(u);
-    }
-  return is_closed;
+  if (!is_closed)
+    return false;
+  log.line("  the loads close contact without friction, which begins there");
+  go_on_from(u);
+  return true;
 }
 
 template <int dim>
@@ -151,10 +146,8 @@ Simulation<dim>::settle()
       if (!work || *work < negligible)
         break;
       equilibrium->residual(u, state.contact, r);
-      points_at_end     = moved_points(u);
-      const double lack = equilibrium->energies().balance_error();
-      equilibrium->accept(u, state.contact);
-      equilibrium->count_as_transfer(lack);
+      points_at_end = moved_points(u);
+      equilibrium->accept_as_transfer(u, state.contact);
       go_on_from(u);
     }
   if (n_moves > 0)

@@ -152,13 +152,13 @@ LeastGap<dim>::is_least(const dealii::Point<dim> &x, const double least_gap, con
 
 template <int dim>
 ContactPoint<dim>
-LeastGap<dim>::point_at(const dealii::Point<dim> &x, const double weight,
+LeastGap<dim>::point_at(const dealii::Point<dim> &x, const double weight, const double least_gap,
                         const ContactPoint<dim> &beside) const
 {
   ContactPoint<dim> point = beside;
   point.position          = x;
   point.weight            = weight;
-  point.initial_gap = point.start_gap = gap(x);
+  point.initial_gap = point.start_gap = least_gap;
   point.is_exact = distances.is_known(pair.a, x) && distances.is_known(pair.b, x);
   if (point.normal_of == NormalOf::both)
     point.normal = distance(pair.a, x).second - distance(pair.b, x).second;
@@ -232,7 +232,7 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
     return;
   for (unsigned int i = 0; i < beside.size(); ++i)
     points[beside[i].entry].weight -= omega * lambda[i];
-  points.push_back(point_at(least->x, omega, first));
+  points.push_back(point_at(least->x, omega, least_gap, first));
 }
 
 template class LeastGap<2>;

@@ -68,6 +68,23 @@ BoundaryTerm<dim>::unknowns(const BoundaryPoint<dim> &point) const
 }
 
 template <int dim>
+void
+BoundaryTerm<dim>::set_tangent(const BoundaryPoint<dim> &point, const ShapeValues<dim> &shape,
+                               const dealii::Tensor<3, dim> &by_increment,
+                               dealii::FullMatrix<double>   &block) const
+{
+  const unsigned int n = fields.basis.n_nodes;
+  for (unsigned int b = 0; b < n; ++b)
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const dealii::Tensor<1, dim> column = by_increment[i] * shape.gradient[b];
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int k = 0; k < dim; ++k)
+            block(a * dim + i, b * dim + k) = point.weight * shape.value[a] * column[k];
+      }
+}
+
+template <int dim>
 dealii::Tensor<1, dim>
 displacement_at(const Fields<dim> &fields, const BoundaryPoint<dim> &point,
                 const dealii::TrilinosWrappers::MPI::Vector &u)

@@ -413,9 +413,11 @@ Equilibrium<dim>::is_linear_but_for_contact() const
 
 template <int dim>
 void
-Equilibrium<dim>::count_as_transfer(const double but)
+Equilibrium<dim>::accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history)
 {
-  current_energies.transfer -= current_energies.balance_error() - but;
+  const double before = current_energies.balance_error();
+  accept(u, old_history);
+  current_energies.transfer -= current_energies.balance_error() - before;
 }
 
 template <int dim>

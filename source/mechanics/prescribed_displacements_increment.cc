@@ -155,15 +155,7 @@ PrescribedDisplacements<dim>::add_tangent(const Vector &u, const double /*time*/
           for (const unsigned int c : condition.components)
             for (unsigned int j = 0; j < dim; ++j)
               dt[c] -= here.tangent[c][j] * point.normal[j];
-          for (unsigned int b = 0; b < n; ++b)
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                const dealii::Tensor<1, dim> column = dt[i] * here.shape.gradient[b];
-                for (unsigned int a = 0; a < n; ++a)
-                  for (unsigned int k = 0; k < dim; ++k)
-                    block(a * dim + i, b * dim + k)
-                      = point.weight * here.shape.value[a] * column[k];
-              }
+          this->set_tangent(point, here.shape, dt, block);
           if (!here.by_volume.empty())
             for (const unsigned int c : condition.components)
               for (unsigned int j = 0; j < n * dim; ++j)

@@ -137,15 +137,9 @@ SurfaceTractions<dim>::add_tangent(const Vector &u, const double time, Matrix &m
           const auto  &cell  = this->fields.cells()[point.active_cell];
           const double scale = 1. / this->fields.grid.cells()[cell.grid_cell].size;
           this->fields.basis.evaluate(point.unit_point, shape);
-          for (unsigned int b = 0; b < n; ++b)
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                const dealii::Tensor<1, dim> column
-                  = tractions[q].by_increment[i] * (scale * shape.gradient[b]);
-                for (unsigned int a = 0; a < n; ++a)
-                  for (unsigned int k = 0; k < dim; ++k)
-                    block(a * dim + i, b * dim + k) = -point.weight * shape.value[a] * column[k];
-              }
+          for (unsigned int a = 0; a < n; ++a)
+            shape.gradient[a] *= scale;
+          this->set_tangent(point, shape, -tractions[q].by_increment, block);
           this->fields.hanging_constraints().distribute_local_to_global(
             block, this->unknowns(point), matrix);
         }

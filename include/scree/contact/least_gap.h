@@ -59,9 +59,9 @@ private:
   bool is_least(const dealii::Point<dim> &x, const double least_gap, const Tensor &normal,
                 const double size) const;
 
-  /** A contact point of this weight there, on the same faces as `beside`. */
+  /** A contact point of this weight and gap there, on the same faces as `beside`. */
   ContactPoint<dim> point_at(const dealii::Point<dim> &x, const double weight,
-                             const ContactPoint<dim> &beside) const;
+                             const double least_gap, const ContactPoint<dim> &beside) const;
 
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;

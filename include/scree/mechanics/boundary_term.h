@@ -81,6 +81,16 @@ protected:
   /** The displacement unknowns of the cell of a point. */
   std::vector<DofIndex> unknowns(const BoundaryPoint<dim> &point) const;
 
+  /**
+   * Sets the derivative of the forces of a traction t(F_D) at a point by the unknowns of its cell,
+   * w N_a dt_i/dF_D,kL N_b,L in row (a, i) and column (b, k).
+   *
+   * @param shape with gradients in physical coordinates
+   */
+  void set_tangent(const BoundaryPoint<dim> &point, const ShapeValues<dim> &shape,
+                   const dealii::Tensor<3, dim> &by_increment,
+                   dealii::FullMatrix<double>   &block) const;
+
   const BoundarySetting<dim>      setting;
   const Fields<dim>              &fields;
   const std::vector<unsigned int> own_regions;

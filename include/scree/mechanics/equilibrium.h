@@ -66,8 +66,8 @@ public:
   /** Takes what the accepted state stores as external work: bodies that overlap were assembled. */
   void count_overlap();
 
-  /** Takes what the accepted state lacks in the balance of energies as transfer, but for `but`. */
-  void count_as_transfer(const double but);
+  /** accept(); what that adds to the error of the balance of energies is transfer. */
+  void accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history);
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
