@@ -110,6 +110,28 @@ foot_on_boundary(const Body<dim> &body, const dealii::Point<dim> &x)
   return best;
 }
 
-template std::optional<BoundaryFoot<2>> foot_on_boundary(const Body<2> &, const dealii::Point<2> &);
-template std::optional<BoundaryFoot<3>> foot_on_boundary(const Body<3> &, const dealii::Point<3> &);
+template <int dim>
+void
+set_moved_distances(Body<dim> &body, const double reach)
+{
+  Lattice<dim> &phi = body.level_set;
+  for (std::size_t i = 0; i < phi.values().size(); ++i)
+    {
+      const dealii::Point<dim> x        = phi.node(phi.index(i));
+      double                   distance = body.shape->signed_distance(initial_position(body, x));
+      // |phi_0(X)| is at most |G| times the distance.
+      if (std::abs(distance) <= reach * initial_gradient(body, x).norm())
+        if (const auto foot = foot_on_boundary(body, x))
+          distance = foot->distance;
+      phi.values()[i] = distance;
+    }
+}
+
+#define SCREE_INSTANTIATE(dim)                                                            \
+  template std::optional<BoundaryFoot<dim>> foot_on_boundary(const Body<dim> &,           \
+                                                             const dealii::Point<dim> &); \
+  template void                             set_moved_distances(Body<dim> &, const double);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
 } // namespace scree

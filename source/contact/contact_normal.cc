@@ -119,7 +119,10 @@ contact_normal(const ExactDistances<dim> &distances, const std::vector<Body<dim>
     {
       const bool face_each_other = a_is_firm && b_is_firm && -(of_a.normal * of_b.normal) > facing;
       if (face_each_other || of_a.is_kinked == of_b.is_kinked)
-        result.normal = of_a.normal - of_b.normal;
+        {
+          result.normal        = of_a.normal - of_b.normal;
+          result.is_undeformed = face_each_other;
+        }
       else
         take(!of_a.is_kinked);
     }

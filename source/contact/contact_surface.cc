@@ -89,8 +89,9 @@ PairSurface<dim>::normal(const dealii::Point<dim> &x, const double size,
 {
   const ContactNormal<dim> known
     = contact_normal(distances, bodies, pair.a, pair.b, x, size, of_cut);
-  // Deformed surfaces are rough for some cells beside their edges.
-  const bool is_exact = known.of != NormalOf::both && (is_kinked || known.is_flat);
+  // For some cells beside edges nodal gradients are bent and deformed surfaces rough.
+  const bool is_exact = (is_kinked && (known.of != NormalOf::both || known.is_undeformed))
+                        || (known.of != NormalOf::both && known.is_flat);
   if (nodal_normals && !known.is_near_kink && !is_exact)
     return {nodal / nodal.norm(), NormalOf::both};
   return {known.normal, known.of};

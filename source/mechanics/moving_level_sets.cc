@@ -1,4 +1,5 @@
 #include <scree/base/exceptions.h>
+#include <scree/bodies/boundary_foot.h>
 #include <scree/level_set/extension.h>
 #include <scree/level_set/fast_marching.h>
 #include <scree/level_set/pieces.h>
@@ -398,16 +399,11 @@ move_level_set(Body<dim> &body, NodalVectors<dim> v, NodalVectors<dim> u,
           continue_off_body<dim>(phi, known_nodes<dim>(u), box, u);
           result.n_unconverged
             = image_of_initial<dim>(phi, *body.initial_level_set, v, u, &moved_by).n_unconverged;
-          // Interpolants of the initial level set would round corners.
-          if (body.shape && !body.shape->is_smooth() && body.shape->is_distance())
-            for (std::size_t i = 0; i < phi.values().size(); ++i)
-              {
-                dealii::Point<dim> X = phi.node(phi.index(i));
-                for (unsigned int d = 0; d < dim; ++d)
-                  X[d] -= moved_by[d][i];
-                phi.values()[i] = body.shape->signed_distance(X);
-              }
           body.displacement = ExtendedIncrement<dim>(phi, std::move(moved_by));
+          // Interpolants of the initial level set would round corners, as would distances made of
+          // them: the strip of reinitialise() is within this reach.
+          if (body.shape && !body.shape->is_smooth() && body.shape->is_distance())
+            set_moved_distances(body, 4. * phi.spacing());
         }
       else
         {

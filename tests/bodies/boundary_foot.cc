@@ -97,6 +97,27 @@ TEST(BoundaryFoot, EdgesAndCornersOfAStretchedBox)
   compare<3>(body, there, Point<3>(F * Point<3>(0.5, 0.7, 0.)));
 }
 
+TEST(BoundaryFoot, LevelSetsOfPressedBoxesAreDistances)
+{
+  Tensor<2, 2> F;
+  F[0][0] = 1.3;
+  F[1][1] = 0.5;
+  const Point<2>   lower(-0.7, -0.9), upper(0.6, 0.8);
+  auto             body = deformed_body<2>(std::make_shared<Box<2>>(lower, upper), F);
+  const Box<2>     there(Point<2>(F * lower), Point<2>(F * upper));
+  constexpr double reach = 4. * spacing;
+  set_moved_distances(body, reach);
+  for (std::size_t i = 0; i < body.level_set.values().size(); ++i)
+    {
+      const Point<2> x        = body.level_set.node(body.level_set.index(i));
+      const double   distance = there.signed_distance(x);
+      if (std::abs(distance) < reach)
+        EXPECT_NEAR(body.level_set.values()[i], distance, 1e-6) << x;
+      else
+        EXPECT_GE(body.level_set.values()[i] / distance, 0.7) << x;
+    }
+}
+
 TEST(BoundaryFoot, AStretchedCircle)
 {
   // The nearest point of an ellipse on its axis, and on its boundary.

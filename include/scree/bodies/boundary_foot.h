@@ -28,4 +28,12 @@ struct BoundaryFoot
 template <int dim>
 std::optional<BoundaryFoot<dim>> foot_on_boundary(const Body<dim>          &body,
                                                   const dealii::Point<dim> &x);
+
+/**
+ * Sets the level set of a deformed body to the distance to its moved boundary, phi_0(X) of a shape
+ * that tells distances. Nodes farther than `reach` [L] keep phi_0(X), in which a stretch across the
+ * boundary changes the slope.
+ */
+template <int dim>
+void set_moved_distances(Body<dim> &body, const double reach);
 } // namespace scree

@@ -20,7 +20,8 @@ struct ContactNormal
   dealii::Tensor<1, dim> normal;
   NormalOf               of;           //!< the body whose exact distance has it
   bool                   is_near_kink; //!< of a body whose exact distance is known
-  bool is_flat = false; //!< of a flat face of a rigid body: the same wherever they meet
+  bool is_flat       = false; //!< of a flat face of a rigid body: the same wherever they meet
+  bool is_undeformed = false; //!< of two bodies with exact distances that have not deformed
 };
 
 /**
