@@ -191,16 +191,17 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
         conditions.emplace_back(name, body.path + "/Boundary conditions/" + name, condition);
       const double most_nodes
         = is_moving && !is_rigid ? largest_dense_lattice : largest_cheap_lattice;
-      bodies.push_back(
-        Body<dim>{body.name,
-                  body.path,
-                  make_lattice(shape, body_frame, margin, body.path + "/Shape", most_nodes),
-                  box,
-                  material,
-                  is_rigid ? make_rigid_body(body, shape, box) : nullptr,
-                  Expression<dim>(body.body_force, dim, body.path + "/Body force"),
-                  conditions,
-                  {}});
+      const BodyDefinition<dim> definition{
+        body.name,
+        body.path,
+        material,
+        is_rigid ? make_rigid_body(body, shape, box) : nullptr,
+        Expression<dim>(body.body_force, dim, body.path + "/Body force"),
+        conditions};
+      bodies.emplace_back(
+        definition,
+        BodyGeometry<dim>{make_lattice(shape, body_frame, margin, body.path + "/Shape", most_nodes),
+                          box});
       bodies.back().shape = shape;
       if (is_rigid)
         bodies.back().pose = RigidPose<dim>(*bodies.back().rigid, {});

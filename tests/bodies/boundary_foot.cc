@@ -28,15 +28,16 @@ deformed_body(const std::shared_ptr<const Shape<dim>> &shape, const Tensor<2, di
       lower[d] = -2.;
       upper[d] = 2.;
     }
-  const BoundingBox<dim> box({lower, upper});
-  Body<dim>              body{"body",
-                 "Bodies/body",
-                 make_lattice<dim>(shape, {lower, spacing, box}, 6. * spacing, "Shape"),
-                 box,
-                 nullptr,
-                 nullptr,
-                 Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Body force"),
-                 {}};
+  const BoundingBox<dim>    box({lower, upper});
+  const BodyDefinition<dim> definition{
+    "body",
+    "Bodies/body",
+    nullptr,
+    nullptr,
+    Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Body force"),
+    {}};
+  Body<dim> body(definition,
+                 {make_lattice<dim>(shape, {lower, spacing, box}, 6. * spacing, "Shape"), box});
   body.shape = shape;
   NodalVectors<dim> u;
   for (std::size_t i = 0; i < body.level_set.values().size(); ++i)

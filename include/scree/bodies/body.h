@@ -37,17 +37,14 @@ std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &
                                                 const std::vector<std::string> &material_names);
 
 /**
- * A body: its level set (negative inside, nodal values on a lattice), its material and what acts on
- * it. The geometry is the initial one unless `pose` says otherwise. A rigid body has no material
- * but a motion.
+ * What a body is, the same throughout a run: its material and what acts on it. A rigid body has no
+ * material but a motion.
  */
 template <int dim>
-struct Body
+struct BodyDefinition
 {
   std::string                           name;
   std::string                           path; //!< section path, for messages
-  Lattice<dim>                          level_set;
-  dealii::BoundingBox<dim>              box; //!< of the body, clipped by the background box [L]
   std::shared_ptr<const Material<dim>>  material;
   std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
   Expression<dim>                       body_force; //!< force per volume
@@ -56,16 +53,36 @@ struct Body
   std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
   /** The level set at the start of a run with moving geometry; null for rigid bodies. */
   std::shared_ptr<const Lattice<dim>> initial_level_set = nullptr;
+
+  bool is_rigid() const
+  {
+    return rigid != nullptr;
+  }
+};
+
+/** Where a body is, a part of State: the geometry is the initial one unless `pose` says otherwise.
+ */
+template <int dim>
+struct BodyGeometry
+{
+  Lattice<dim>             level_set; //!< negative inside, nodal values [L]
+  dealii::BoundingBox<dim> box;       //!< of the body, clipped by the background box [L]
   /** The pose in which level_set and box show a rigid body. */
   RigidPose<dim> pose = {};
   /** At the start of a run; null if the body's motion has left it unknown. */
   std::shared_ptr<const Shape<dim>> shape = nullptr;
   /** u = x - X where the body is now, X where it was at the start; empty if it has not moved. */
   ExtendedIncrement<dim> displacement = {};
+};
 
-  bool is_rigid() const
+/** A body: what it is and where it is. */
+template <int dim>
+struct Body : BodyDefinition<dim>, BodyGeometry<dim>
+{
+  Body(const BodyDefinition<dim> &definition, const BodyGeometry<dim> &geometry)
+      : BodyDefinition<dim>(definition)
+      , BodyGeometry<dim>(geometry)
   {
-    return rigid != nullptr;
   }
 };
 
