@@ -1,5 +1,7 @@
 #include <scree/application/refinement_study.h>
 #include <scree/base/exceptions.h>
+#include <scree/contact/contact_cells.h>
+#include <scree/mechanics/error_indicator.h>
 #include <scree/parameters/nearest_name.h>
 
 #include <deal.II/base/mpi.h>
@@ -46,6 +48,22 @@ pair_index(const StudyQuantity<dim> &quantity, const ContactPoints<dim> &contact
     names.push_back(pair.name);
   return index_of(quantity.pair, names, quantity.path + "/Pair", "pair in contact");
 }
+
+/** Nodal values of the level sets of all bodies. */
+template <int dim>
+double
+n_level_set_values(const std::vector<Body<dim>> &bodies)
+{
+  double sum = 0.;
+  for (const Body<dim> &body : bodies)
+    {
+      double product = 1.;
+      for (const auto n : body.level_set.n_nodes())
+        product *= n;
+      sum += product;
+    }
+  return sum;
+}
 } // namespace
 
 template <int dim>
@@ -83,7 +101,7 @@ RefinementStudy<dim>::require_quantities(const Simulation<dim> &simulation) cons
   for (const auto &quantity : parameters.study.quantities)
     {
       if (quantity.is_curve())
-        pair_index(quantity, simulation.contact_points());
+        pair_index(quantity, simulation.get_model().problem().contact());
       const auto names = quantity.is_curve() ? contact_columns<dim>() : simulation.columns();
       index_of(quantity.column, names, quantity.path + "/Column", "column");
     }
@@ -109,13 +127,14 @@ RefinementStudy<dim>::run()
       const auto         simulation = set_up(c);
       require_quantities(*simulation);
       simulation->run();
-      Cycle cycle;
-      cycle.n_cells     = simulation->background_grid().triangulation().n_global_active_cells();
-      cycle.n_unknowns  = simulation->n_unknowns();
-      cycle.finest_edge = simulation->background_grid().finest_size();
+      const DiscreteProblem<dim> &problem = simulation->get_model().problem();
+      Cycle                       cycle;
+      cycle.n_cells     = problem.grid.triangulation().n_global_active_cells();
+      cycle.n_unknowns  = problem.fields.n_dofs();
+      cycle.finest_edge = problem.grid.finest_size();
       cycle.seconds
         = dealii::Utilities::MPI::sum(double(std::clock() - start) / CLOCKS_PER_SEC, communicator);
-      const ErrorEstimate estimate = simulation->estimate_error();
+      const ErrorEstimate estimate = estimate_error(problem, simulation->get_model().state());
       cycle.error_estimate         = estimate.relative;
       measure(*simulation, cycle);
       cycles.push_back(cycle);
@@ -132,8 +151,9 @@ template <int dim>
 void
 RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) const
 {
-  const auto names = simulation.columns(), contact_names = contact_columns<dim>();
-  const auto values = simulation.last_values();
+  const auto  names = simulation.columns(), contact_names = contact_columns<dim>();
+  const auto  values  = simulation.last_values();
+  const auto &contact = simulation.get_model().problem().contact();
   for (const auto &quantity : parameters.study.quantities)
     {
       cycle.curves.emplace_back();
@@ -147,12 +167,11 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
       const Expression<dim> along(quantity.along, 1, quantity.path + "/Along");
       const Expression<dim> formula(quantity.reference.empty() ? "0" : quantity.reference, 1,
                                     quantity.path + "/Reference");
-      const unsigned int    pair   = pair_index(quantity, simulation.contact_points());
+      const unsigned int    pair   = pair_index(quantity, contact);
       const unsigned int    weight = index_of("weight", contact_names, quantity.path, "column");
       const unsigned int    column
         = index_of(quantity.column, contact_names, quantity.path + "/Column", "column");
-      const auto all = dealii::Utilities::MPI::all_gather(
-        communicator, contact_rows(simulation.contact_points()));
+      const auto all = dealii::Utilities::MPI::all_gather(communicator, contact_rows(contact));
       for (const auto &rows : all)
         for (const auto &row : rows)
           if (row[0] == pair)
@@ -171,10 +190,11 @@ bool
 RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
                                        const ErrorEstimate   &estimate)
 {
-  const BackgroundGrid<dim> &grid       = simulation.background_grid();
+  const Model<dim>          &model      = simulation.get_model();
+  const BackgroundGrid<dim> &grid       = model.problem().grid;
   const double               per_level  = 1u << dim;
   unsigned int               affordable = parameters.grid.finest_level;
-  for (double n = per_level * simulation.n_level_set_values(); n <= most_level_set_values;
+  for (double n = per_level * n_level_set_values(model.state().bodies); n <= most_level_set_values;
        n *= per_level)
     ++affordable;
   std::vector<unsigned int> levels;
@@ -186,8 +206,9 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
       ++level;
   else
     {
-      const auto   marked = largest_share(estimate.squares, parameters.study.share, communicator);
-      const auto   in_contact       = simulation.contact_cells();
+      const auto marked = largest_share(estimate.squares, parameters.study.share, communicator);
+      const auto in_contact
+        = cells_around(model.state().was_closed, model.problem().contact(), grid);
       unsigned int level_of_contact = 0;
       for (unsigned int c = 0; c < levels.size(); ++c)
         if (in_contact[c])

@@ -1,58 +1,36 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
-#include <scree/bodies/broad_phase.h>
-#include <scree/contact/contact_reach.h>
+#include <scree/mechanics/existence.h>
+#include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
+#include <deal.II/grid/grid_out.h>
 
 namespace scree
 {
-namespace
-{
-/** The law between two bodies; none if they pass through each other or none of them can respond. */
-template <int dim>
-std::optional<ContactPairParameters>
-law_between(const Body<dim> &a, const Body<dim> &b, const ContactParameters &contact)
-{
-  const auto is_driven
-    = [](const Body<dim> &body) { return body.is_rigid() && !body.rigid->is_free(); };
-  if (is_driven(a) && is_driven(b))
-    return {};
-  const auto law = contact.law_of(a.name, b.name);
-  if (law.law == ContactLaw::none)
-    return {};
-  return law;
-}
-
-/** Whether more pairs of bodies may touch than history.csv has columns for. */
-template <int dim>
-bool
-has_many_pairs(const std::vector<Body<dim>> &bodies, const ContactParameters &contact)
-{
-  unsigned int n_pairs = 0;
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    for (unsigned int a = 0; a < b && n_pairs <= Results<dim>::most_pairs_in_history; ++a)
-      n_pairs += law_between(bodies[a], bodies[b], contact).has_value();
-  return n_pairs > Results<dim>::most_pairs_in_history;
-}
-} // namespace
-
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
                             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint)
     : parameters(parameters)
     , communicator(communicator)
-    , log(communicator, output_directory + "/log.txt", checkpoint != nullptr)
     , directory(output_directory)
-    , grid(std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator))
+    , run_log{Log(communicator, output_directory + "/log.txt", checkpoint != nullptr), {}, {}}
+    , report(run_log)
     , step_control(parameters.time)
+    , model(this->parameters, step_control.step_size(), communicator, run_log)
+    , stepper(this->parameters, step_control, model, run_log)
+    , closing(step_control, model, stepper, run_log)
+    , results(directory, model.state().bodies, parameters.output.probes, model.pairs_change())
+    , saver(this->parameters.output, directory, communicator, run_log,
+            [this]() { return collect(); })
 {
-  set_up();
+  const DiscreteProblem<dim> &problem = model.problem();
+  results.set_discretization(problem.fields, problem.level_set_nodes);
+  results.require_distinct_columns(problem.equilibrium(), problem.contact());
+  // Probes outside their bodies are told before anything is computed.
+  results.require_probes(problem.bulk,
+                         problem.equilibrium().with_ghosts(model.state().displacement));
   report_set_up();
   if (checkpoint)
     resume(*checkpoint);
@@ -60,155 +38,13 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
 
 template <int dim>
 void
-Simulation<dim>::set_up()
+Simulation<dim>::report_set_up()
 {
-  std::map<std::string, std::shared_ptr<const Material<dim>>> materials;
-  for (const auto &[name, material] : parameters.materials)
-    materials[name] = make_material<dim>(material);
-
-  {
-    const Timings::Scope scope(timings, "geometry");
-    bodies = make_bodies<dim>(parameters.bodies, materials, lattice_frame(), lattice_margin(),
-                              is_moving());
-  }
-  for (unsigned int b = 0; b < bodies.size() && is_moving(); ++b)
-    {
-      bodies[b].initial_level_set = std::make_shared<const Lattice<dim>>(bodies[b].level_set);
-      if (!bodies[b].is_rigid())
-        bodies[b].law
-          = make_increment_law<dim>(parameters.materials.at(parameters.bodies[b].material));
-    }
-
-  if (is_moving())
-    require_movable(bodies);
-  pairs_change = is_moving() && has_many_pairs(bodies, parameters.contact);
-  pairs        = find_pairs();
-  require_distinct(bodies, pairs);
-  discretise();
-  was_closed.assign(contact->points().size(), false);
-  results
-    = std::make_unique<Results<dim>>(directory, bodies, parameters.output.probes, pairs_change);
-  results->set_discretization(*fields, *level_set_nodes);
-  state.time         = 0.;
-  state.displacement = zero_displacement(*fields);
-  state.contact      = contact->initial_history();
-  if (is_moving())
-    start_step();
-  results->require_distinct_columns(*equilibrium, *contact);
-  // Probes outside their bodies are told before anything is computed.
-  results->require_probes(*bulk, equilibrium->with_ghosts(state.displacement));
-}
-
-template <int dim>
-void
-Simulation<dim>::discretise()
-{
-  {
-    const Timings::Scope scope(timings, "grid");
-    // What refers to the grid ends before it.
-    condensed_solver.reset();
-    equilibrium.reset();
-    contact.reset();
-    boundary_terms.reset();
-    bulk.reset();
-    step_start.reset();
-    quadrature.reset();
-    fields.reset();
-    level_set_nodes.reset();
-    if (is_moving() && has_started() && parameters.grid.refinement == GridRefinement::contact)
-      grid = std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator);
-    if (pairs_change && has_started())
-      pairs = find_pairs();
-    std::vector<std::pair<unsigned int, unsigned int>> indices;
-    for (const ContactPair &pair : pairs)
-      indices.emplace_back(pair.a, pair.b);
-    grid->refine(bodies, indices);
-  }
-  {
-    const Timings::Scope scope(timings, "fields");
-    level_set_nodes = std::make_unique<LevelSetNodes<dim>>(*grid, parameters.degree);
-    fields          = std::make_unique<Fields<dim>>(*grid, *level_set_nodes, bodies,
-                                           BoundaryTerms<dim>::n_multipliers(bodies));
-  }
-  {
-    const Timings::Scope scope(timings, "quadrature");
-    quadrature = std::make_unique<CutQuadrature<dim>>(*fields, *level_set_nodes, bodies);
-  }
-  if (is_moving())
-    set_up_points();
-  {
-    const Timings::Scope scope(timings,
-                               is_moving() ? "history at quadrature points" : "quadrature");
-    bulk = std::make_unique<Bulk<dim>>(*fields, *quadrature, bodies, parameters.ghost_penalty,
-                                       step_start.get());
-    boundary_terms = std::make_unique<BoundaryTerms<dim>>(*fields, *level_set_nodes, *quadrature,
-                                                          bodies, *bulk, state.time);
-  }
-  set_up_equilibrium();
-}
-
-template <int dim>
-void
-Simulation<dim>::set_up_equilibrium()
-{
-  // What refers to the contact points ends before them.
-  condensed_solver.reset();
-  equilibrium.reset();
-  {
-    const Timings::Scope       scope(timings, "contact search");
-    typename Bulk<dim>::Vector ratios;
-    if (step_start)
-      ratios = bulk->nodal_secant_ratios();
-    contact = std::make_unique<ContactPoints<dim>>(
-      *fields, *level_set_nodes, bodies, pairs, parameters.contact.shift * grid->finest_size(),
-      prediction(), step_start ? &step_start->displacement() : nullptr,
-      step_start ? &ratios : nullptr);
-  }
-  {
-    const Timings::Scope scope(timings, "linear assembly");
-    equilibrium
-      = std::make_unique<Equilibrium<dim>>(*fields, bodies, *bulk, *boundary_terms, *contact);
-  }
-  linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver, dim, parameters.degree);
-  linear_solver->set_near_null_space(equilibrium->rigid_motions());
-  linear_solver->set_border(fields->n_trailing());
-}
-
-template <int dim>
-LatticeFrame<dim>
-Simulation<dim>::lattice_frame() const
-{
-  return {parameters.grid.lower, grid->finest_size() / parameters.degree, grid->box()};
-}
-
-template <int dim>
-double
-Simulation<dim>::lattice_margin() const
-{
-  const auto  &p        = parameters.grid;
-  const double coarsest = p.refinement == GridRefinement::uniform ? p.cell_size(p.finest_level)
-                                                                  : p.cell_size(p.coarsest_level);
-  return std::max((parameters.contact.shift + 2.) * grid->finest_size(), 2. * coarsest);
-}
-
-template <int dim>
-std::vector<ContactPair>
-Simulation<dim>::find_pairs() const
-{
-  double reach = 2. * parameters.contact.shift * grid->finest_size();
-  if (is_moving())
-    {
-      // Few pairs stay for the whole run, in the course of which any two bodies may meet.
-      const dealii::BoundingBox<dim> box = grid->box();
-      const double everywhere = box.side_length(0) + box.side_length(1) + box.side_length(dim - 1);
-      reach = pairs_change ? std::min(everywhere, std::max(reach, grid->reach_of_refinement()))
-                           : everywhere;
-    }
-  std::vector<ContactPair> result;
-  for (const auto &[a, b] : BodyBoxes<dim>(bodies).pairs(reach))
-    if (const auto law = law_between(bodies[a], bodies[b], parameters.contact))
-      result.push_back({a, b, bodies[a].name + "-" + bodies[b].name, *law});
-  return result;
+  if (!parameters.title.empty())
+    run_log.log.line(parameters.title);
+  for (const std::string &warning : parameters.warnings)
+    run_log.log.line("Warning: " + warning);
+  report.set_up(model.problem(), model.pairs_change());
 }
 
 template <int dim>
@@ -216,93 +52,225 @@ void
 Simulation<dim>::run()
 {
   const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
+  dealii::Timer      wall;
+  Tries              tries;
+  has_slid = step_control.n_accepted() > 0;
   if (!step_control.finished())
     require_prescribable();
-  dealii::Timer wall;
-  unsigned int  attempts   = 1;
-  bool          has_turned = false; // to the other kind of attempt, in this step
-  bool          has_slid   = step_control.n_accepted() > 0;
-  resolve_overlap();
+  closing.resolve_overlap();
   if (step_control.n_accepted() == 0)
-    settle();
+    closing.settle();
   while (!step_control.finished())
     {
-      if (solve_step(step_control.next_time()))
+      Attempt<dim> attempt = stepper.attempt();
+      if (!attempt.is_accepted())
         {
-          record.attempts = attempts;
-          attempts        = 1;
-          has_turned      = false;
-          has_slid        = true;
-          step_control.accept(record.newton_iterations);
-          write_results();
-          report_step(wall.wall_time());
-          report_under_resolved();
-          if (is_moving())
-            move_geometry();
-          results->write_history();
-          save_if_due();
-          end_if_interrupted();
+          try_again(attempt, tries);
           continue;
         }
-      ++attempts;
-      if (!is_too_large)
-        {
-          require_equilibrium_exists();
-          if (!has_turned && !equilibrium->free_bodies().empty())
-            {
-              // The other way, after a fall, see Equilibrium::set_second_attempt().
-              settle();
-              is_second_attempt = !is_second_attempt;
-              has_turned        = true;
-              continue;
-            }
-          is_second_attempt = has_turned;
-          if (has_turned && !std::exchange(has_slid, true) && close_without_friction())
-            continue;
-        }
-      require(step_control.reject(), "Time",
-              "the load step to time " + short_number(record.time)
-                + " was not solved, not even with the smallest step",
-              "see the reasons above; use more steps, a smaller tangential penalty factor, or "
-              "support the bodies that are not held");
-      log.line("  the step is tried again with " + short_number(100. * step_control.step_fraction())
-               + "% of its length");
-      if (is_moving())
-        {
-          // Contact points expect the slip of the step.
-          set_up_equilibrium();
-          start_step();
-        }
+      attempt.record.attempts = tries.n;
+      tries                   = Tries();
+      finish_step(attempt, wall.wall_time());
     }
-  report_end();
+  finish();
 }
 
 template <int dim>
 void
-Simulation<dim>::write_results()
+Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
-  const Timings::Scope scope(timings, "output");
-  const auto           ghosted = equilibrium->with_ghosts(state.displacement);
-  const auto          &output  = parameters.output;
-  const bool           is_last = step_control.finished();
-  const auto           is_due
-    = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
-  results->gather_history(record, *equilibrium, *contact, *quadrature, *bulk, state.displacement);
-  results->write_probes(record, *bulk, ghosted);
-  bool is_written = true;
-  if (is_due(output.fields_every))
-    is_written &= results->write_fields(record, *bulk, ghosted);
-  if (is_due(output.contact_every))
-    is_written &= results->write_contact(record, *contact);
-  if (!is_written)
-    log.line("Warning: pictures of this step cannot be written (is the disk full?)");
+  has_slid = true;
+  step_control.accept(attempt.record.newton_iterations);
+  write_results(attempt.record);
+  const double done = step_control.time() / parameters.time.end_time;
+  report.step(attempt.record, model.problem().contact(), communicator, done,
+              wall_time * (1. - done) / (done - fraction_at_restart));
+  report.under_resolved(model.problem());
+  if (model.is_moving())
+    {
+      const auto motion = model.move_geometry(std::move(attempt.points), step_control.step_size());
+      results.set_discretization(model.problem().fields, model.problem().level_set_nodes);
+      results.gather_motion(motion);
+    }
+  results.write_history();
+  save_if_due();
+  end_if_interrupted();
 }
 
 template <int dim>
-unsigned int
-Simulation<dim>::n_unknowns() const
+void
+Simulation<dim>::try_again(const Attempt<dim> &attempt, Tries &tries)
 {
-  return fields->n_dofs();
+  ++tries.n;
+  if (attempt.outcome == Attempt<dim>::Outcome::unsolved
+      && finds_another_way(attempt.record.time, tries))
+    return;
+  require(step_control.reject(), "Time",
+          "the load step to time " + short_number(attempt.record.time)
+            + " was not solved, not even with the smallest step",
+          "see the reasons above; use more steps, a smaller tangential penalty factor, or "
+          "support the bodies that are not held");
+  run_log.log.line("  the step is tried again with "
+                   + short_number(100. * step_control.step_fraction()) + "% of its length");
+  if (model.is_moving())
+    model.begin_again(step_control.step_size());
+}
+
+template <int dim>
+bool
+Simulation<dim>::finds_another_way(const double time, Tries &tries)
+{
+  require_equilibrium_exists(model.problem(), model.state(), time);
+  if (!tries.has_turned && !model.problem().equilibrium().free_bodies().empty())
+    {
+      // The other way, after a fall, see Equilibrium::set_second_attempt().
+      closing.settle();
+      stepper.set_second_attempt(!stepper.second_attempt());
+      tries.has_turned = true;
+      return true;
+    }
+  stepper.set_second_attempt(tries.has_turned);
+  return tries.has_turned && !std::exchange(has_slid, true) && closing.close_without_friction();
+}
+
+template <int dim>
+void
+Simulation<dim>::write_results(const StepRecord &record)
+{
+  const Timings::Scope        scope(run_log.timings, "output");
+  const DiscreteProblem<dim> &problem = model.problem();
+  const auto                 &u       = model.state().displacement;
+  const auto                  ghosted = problem.equilibrium().with_ghosts(u);
+  const bool                  is_last = step_control.finished();
+  const auto                  is_due
+    = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
+  if (model.is_moving()) // Closing contact may have moved it.
+    results.set_discretization(problem.fields, problem.level_set_nodes);
+  results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature,
+                         problem.bulk, u);
+  results.write_probes(record, problem.bulk, ghosted);
+  bool is_written = true;
+  if (is_due(parameters.output.fields_every))
+    is_written &= results.write_fields(record, problem.bulk, ghosted);
+  if (is_due(parameters.output.contact_every))
+    is_written &= results.write_contact(record, problem.contact());
+  if (!is_written)
+    run_log.log.line("Warning: pictures of this step cannot be written (is the disk full?)");
+}
+
+template <int dim>
+void
+Simulation<dim>::finish()
+{
+  require(results.flush(), directory,
+          "rows of history.csv or other tables could not be written to the last",
+          "make room on the disk and go on with scree --resume " + directory);
+  report.end(step_control.n_rejected(), saver.n_saved(), saver.bytes(), directory);
+}
+
+template <int dim>
+void
+Simulation<dim>::check()
+{
+  require_prescribable();
+  const DiscreteProblem<dim> &problem = model.problem();
+  results.write_contact(StepRecord(), problem.contact());
+  results.write_fields(StepRecord(), problem.bulk,
+                       problem.equilibrium().with_ghosts(model.state().displacement));
+  write_regions_csv(problem.boundary_terms.regions(), model.state().bodies, communicator,
+                    directory);
+  dealii::GridOut().write_mesh_per_processor_as_vtu(problem.grid.triangulation(),
+                                                    directory + "/grid");
+  run_log.log.line("The input is fine; nothing was computed. Set-up written to " + directory);
+  plot(directory, communicator);
+}
+
+template <int dim>
+void
+Simulation<dim>::require_prescribable()
+{
+  auto         u     = model.state().displacement;
+  const double start = model.state().time, end = parameters.time.end_time;
+  for (const double time : {step_control.next_time(), 0.5 * (start + end), end, start})
+    model.problem().equilibrium().set_time(time, u);
+}
+
+template <int dim>
+void
+Simulation<dim>::save_if_due()
+{
+  const bool is_written = results.flush();
+  if (!is_written)
+    run_log.log.line(
+      "Warning: rows of history.csv or other tables cannot be written (is the disk full?). They "
+      "are kept and tried again after the next step; no checkpoint is written meanwhile, the last "
+      "one remains");
+  // The first process, which writes the tables, decides.
+  if (dealii::Utilities::MPI::broadcast(communicator, is_written)
+      && saver.is_due(step_control.n_accepted(), step_control.finished()))
+    saver.save();
+}
+
+template <int dim>
+void
+Simulation<dim>::end_if_interrupted()
+{
+  const int signal = dealii::Utilities::MPI::max(Interruption::signal(), communicator);
+  if (signal == 0)
+    return;
+  const bool        may_resume = parameters.study.n_cycles <= 1;
+  const std::string by         = "interrupted by " + signal_name(signal) + " ";
+  const std::string after      = step_control.n_accepted() == 0
+                                   ? "in the first load step"
+                                   : "after step " + std::to_string(step_control.n_accepted());
+  std::string       remedy;
+  if (may_resume && step_control.n_accepted() > 0)
+    {
+      if (dealii::Utilities::MPI::broadcast(communicator, results.flush()))
+        saver.save();
+      remedy = "go on with scree --resume " + directory;
+    }
+  else
+    remedy = "start it anew: there is no checkpoint";
+  run_log.log.line("The run was " + by + after + "; " + remedy);
+  throw Interrupted{signal, by + after + "\n  remedy: " + remedy};
+}
+
+template <int dim>
+Checkpoint<dim>
+Simulation<dim>::collect() const
+{
+  Checkpoint<dim> result;
+  result.program           = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
+  result.parameters        = parameters.resolved;
+  result.steps             = step_control.record();
+  result.results           = results.record();
+  result.warnings          = run_log.warnings;
+  result.is_second_attempt = stepper.second_attempt();
+  result.state             = model.gathered();
+  return result;
+}
+
+template <int dim>
+void
+Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
+{
+  step_control.resume(checkpoint.steps);
+  const double time   = step_control.time();
+  run_log.warnings    = checkpoint.warnings;
+  fraction_at_restart = time / parameters.time.end_time;
+  stepper.set_second_attempt(checkpoint.is_second_attempt);
+  model.restore(checkpoint.state, time, step_control.step_size(), directory);
+  const DiscreteProblem<dim> &problem = model.problem();
+  results.set_discretization(problem.fields, problem.level_set_nodes);
+  results.resume(checkpoint.results, problem.equilibrium(), problem.contact());
+  if (!checkpoint.warning.empty())
+    run_log.log.line("Warning: " + checkpoint.warning);
+  run_log.log.line("Resumed after step " + std::to_string(step_control.n_accepted()) + ", time "
+                   + short_number(time) + "; the checkpoint is of scree " + checkpoint.program);
+  if (step_control.finished())
+    run_log.log.line("The run had reached its end time; to go on beyond it, set Time/End time and "
+                     "Time/Steps");
 }
 
 template class Simulation<2>;

@@ -106,9 +106,10 @@ void
 Results<dim>::set_discretization(const Fields<dim>        &new_fields,
                                  const LevelSetNodes<dim> &level_set_nodes)
 {
-  fields      = &new_fields;
-  body_output = std::make_unique<BodyOutput<dim>>(new_fields, level_set_nodes, bodies);
-  is_first    = dealii::Utilities::MPI::this_mpi_process(new_fields.grid.communicator()) == 0;
+  fields = &new_fields;
+  nodes  = &level_set_nodes;
+  body_output.reset();
+  is_first = dealii::Utilities::MPI::this_mpi_process(new_fields.grid.communicator()) == 0;
 }
 
 template <int dim>
@@ -324,6 +325,8 @@ template <int dim>
 bool
 Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
 {
+  if (!body_output)
+    body_output = std::make_unique<BodyOutput<dim>>(*fields, *nodes, bodies);
   bool is_written = add_picture(
     record.time, body_output->write(bulk, ghosted_u, directory, record.step, record.time),
     "bodies.pvd", body_records);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/application/simulation.h>
+#include <scree/mechanics/error_estimate.h>
 
 #include <memory>
 #include <string>

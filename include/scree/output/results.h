@@ -152,7 +152,8 @@ private:
   std::vector<ProbeParameters<dim>>           probes;
   bool                                        pairs_change;
   const Fields<dim>                          *fields = nullptr;
-  std::unique_ptr<BodyOutput<dim>>            body_output;
+  const LevelSetNodes<dim>                   *nodes  = nullptr;
+  std::unique_ptr<BodyOutput<dim>>            body_output;      //!< made when first needed
   bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
   LongTables<dim>                             long_tables;

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <scree/application/parameters.h>
+#include <scree/base/run_log.h>
+#include <scree/mechanics/discrete_problem.h>
+#include <scree/output/results.h>
+#include <scree/state/gathered_state.h>
+
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+/**
+ * The bodies of a run on their grid: a State and the discrete problem on it. The state changes in
+ * accept() and move_geometry() and nowhere else.
+ */
+template <int dim>
+class Model
+{
+public:
+  using Vector = typename Equilibrium<dim>::Vector;
+
+  /**
+   * Parameters and log outlive it.
+   *
+   * @param step_size of the first step [time]
+   * @throws UserError if the set-up is impossible
+   */
+  Model(const Parameters<dim> &parameters, const double step_size, const MPI_Comm communicator,
+        RunLog &run_log);
+
+  Model(const Model &)            = delete; // the problem refers to the state
+  Model &operator=(const Model &) = delete;
+
+  const State<dim> &state() const
+  {
+    return current;
+  }
+
+  DiscreteProblem<dim> &problem() const
+  {
+    return *discrete_problem;
+  }
+
+  bool is_moving() const
+  {
+    return parameters.moving.is_moving;
+  }
+
+  /** Whether pairs are found anew in every step: there are many on a moving geometry. */
+  bool pairs_change() const
+  {
+    return pairs_are_many;
+  }
+
+  /**
+   * Takes u at `time`, which the equilibrium accepted, as the state. On a moving geometry
+   * move_geometry() follows.
+   */
+  void accept(const Vector &u, const double time);
+
+  /**
+   * Moves the bodies by the accepted displacement: level sets, poses, material points; makes the
+   * discrete problem there and carries contact on to it (theory.md section 3, step 7).
+   *
+   * @param points    after the step, see moved_points()
+   * @param step_size of the next step [time]
+   * @throws UserError if a body has left the background box and must not
+   */
+  MotionRecord<dim> move_geometry(MaterialPoints<dim> &&points, const double step_size);
+
+  /** On a moving geometry: begins a step of another size, for contact points expect its slip. */
+  void begin_again(const double step_size);
+
+  /** What a checkpoint needs of the state, on process 0; collective. */
+  GatheredState<dim> gathered() const;
+
+  /**
+   * Goes to a saved state at `time` (collective).
+   * @throws UserError if it does not fit; names the directory of the checkpoint
+   */
+  void restore(const GatheredState<dim> &saved, const double time, const double step_size,
+               const std::string &directory);
+
+private:
+  std::vector<Body<dim>> make_bodies_and_laws();
+  /** Those that may touch before the pairs are found again. */
+  std::vector<ContactPair> find_pairs() const;
+  /** Lattice nodes coincide with the support points of degree k on the finest cells. */
+  LatticeFrame<dim> lattice_frame() const;
+  /** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
+  double lattice_margin() const;
+  /** Grid and discrete problem of the present geometry. */
+  void discretise(const double step_size);
+  /** Begins a step on the new geometry: State::displacement and the history of contact. */
+  void start_step();
+  /** Level sets, boxes, poses, and what the next step expects. Returns the number of islands. */
+  unsigned int move_bodies();
+
+  const Parameters<dim>                &parameters;
+  const MPI_Comm                        communicator;
+  RunLog                               &run_log;
+  std::unique_ptr<BackgroundGrid<dim>>  grid;
+  State<dim>                            current;
+  bool                                  pairs_are_many = false;
+  std::vector<ContactPair>              pairs;
+  std::unique_ptr<DiscreteProblem<dim>> discrete_problem;
+};
+} // namespace scree

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <scree/base/run_log.h>
+#include <scree/mechanics/discrete_problem.h>
+#include <scree/solver/newton.h>
+
+#include <vector>
+
+namespace scree
+{
+/**
+ * That the converged step to `time` has every body in balance: forces, and moments where the body's
+ * law balances them. Warns where contact at few points hardly holds a body against turning.
+ * Collective.
+ *
+ * @param u of the last residual()
+ * @throws UserError if a body is not in balance, with what it comes from
+ */
+template <int dim>
+std::vector<BodyBalance<dim>>
+require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
+                const NewtonParameters &newton, const double time, RunLog &run_log);
+
+/**
+ * On a fixed geometry: warns of each body that turned too far for linear kinematics. With the angle
+ * theta and the moments M of the forces on it, the work M theta^2/2 on the second-order motion,
+ * which linear kinematics does not have, is above 1 % of the stored energy. Collective.
+ *
+ * @param balances of require_balance()
+ * @param u        the accepted state, of the last residual()
+ */
+template <int dim>
+void warn_of_rotations(const DiscreteProblem<dim>              &problem,
+                       const std::vector<BodyBalance<dim>>     &balances,
+                       const typename Equilibrium<dim>::Vector &u, const double time,
+                       RunLog &run_log);
+} // namespace scree

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/system_solver.h>
+
+#include <memory>
+#include <vector>
+
+namespace scree
+{
+/** What the discrete problem of a run is made with. */
+struct ProblemParameters
+{
+  unsigned int                    degree;        //!< of the basis
+  double                          ghost_penalty; //!< gamma
+  double                          contact_shift; //!< bound on phi on the contact surface, in h
+  const MovingGeometryParameters &moving;
+  const LinearSolverParameters   &linear_solver;
+};
+
+/**
+ * The discrete problem of the bodies where they are: unknowns, cut quadrature, start of the step on
+ * a moving geometry, bulk, boundary conditions, contact points, equations and their solver
+ * (theory.md section 3, steps 1 to 4). Its parts refer to each other; it is made and destroyed as a
+ * whole, on a grid and bodies that outlive it and do not change meanwhile. Only the contact points,
+ * which depend on the slip that is expected in the step, may be found anew.
+ */
+template <int dim>
+class DiscreteProblem
+{
+public:
+  /**
+   * On a moving geometry seeds the material points of `state` if it has not started, else sends
+   * them to the processes of their cells. Collective.
+   *
+   * @param step_size of the step that comes [time]
+   */
+  DiscreteProblem(const BackgroundGrid<dim> &grid, const std::vector<ContactPair> &pairs,
+                  const ProblemParameters &parameters, State<dim> &state, const double step_size,
+                  Timings &timings);
+
+  /** Finds contact points, and makes their equations, for a step of another size (collective). */
+  void find_contact(const State<dim> &state, const double step_size);
+
+  ContactPoints<dim> &contact() const
+  {
+    return equations->contact;
+  }
+
+  Equilibrium<dim> &equilibrium() const
+  {
+    return equations->equilibrium;
+  }
+
+  SystemSolver<dim> &solver() const
+  {
+    return equations->solver;
+  }
+
+  bool is_moving() const
+  {
+    return parameters.moving.is_moving;
+  }
+
+  /** The bound on phi on the contact surface [L]. */
+  double shift() const
+  {
+    return parameters.contact_shift * grid.finest_size();
+  }
+
+  MPI_Comm communicator() const
+  {
+    return grid.communicator();
+  }
+
+  const ProblemParameters               parameters;
+  const BackgroundGrid<dim>            &grid;
+  const std::vector<Body<dim>>         &bodies;
+  const std::vector<ContactPair>       &pairs;
+  const LevelSetNodes<dim>              level_set_nodes;
+  const Fields<dim>                     fields;
+  const CutQuadrature<dim>              quadrature;
+  const std::unique_ptr<StepStart<dim>> step_start; //!< null on a fixed geometry
+  Bulk<dim>                             bulk;
+  const BoundaryTerms<dim>              boundary_terms;
+
+private:
+  /** On a moving geometry; see the constructor. */
+  std::unique_ptr<StepStart<dim>> start_of_step(State<dim> &state) const;
+
+  /** What depends on the contact points. */
+  struct Equations
+  {
+    Equations(DiscreteProblem &problem, const State<dim> &state, const double step_size);
+
+    ContactPoints<dim> contact;
+    Equilibrium<dim>   equilibrium;
+    SystemSolver<dim>  solver;
+  };
+
+  Timings                   &timings;
+  std::unique_ptr<Equations> equations;
+};
+} // namespace scree

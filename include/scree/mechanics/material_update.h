@@ -1,0 +1,35 @@
+#pragma once
+
+#include <scree/mechanics/bulk.h>
+
+namespace scree
+{
+/**
+ * The material points of the bodies at the start of a run, on the processes of their cells.
+ */
+template <int dim>
+MaterialPoints<dim>
+seed_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+            const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
+            const MovingGeometryParameters &parameters);
+
+/**
+ * Sends points to the processes of their cells and divides those that are wide for them: of cells
+ * finer than they were made for (collective).
+ */
+template <int dim>
+void distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &parameters,
+                       MaterialPoints<dim> &points);
+
+/**
+ * The material points after an increment u, with the laws' answers to F_D = I + grad u, projected
+ * as those of `bulk`: x <- x + u, F <- F_D F, stresses and internal variables.
+ *
+ * @param points those at the start of the step, of bulk.step_start()
+ * @param u      with ghosts [L]
+ */
+template <int dim>
+MaterialPoints<dim> moved_points(const MaterialPoints<dim>    &points,
+                                 const std::vector<Body<dim>> &bodies, const Fields<dim> &fields,
+                                 const Bulk<dim> &bulk, const typename Bulk<dim>::Vector &u);
+} // namespace scree

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <scree/base/timings.h>
+#include <scree/mechanics/equilibrium.h>
+#include <scree/solver/condensed_solver.h>
+#include <scree/solver/linear_solver.h>
+
+#include <memory>
+
+namespace scree
+{
+/**
+ * Solves the linear systems of an Equilibrium: condensed to the contact points where nothing else
+ * changes the tangent and that pays, else the whole system.
+ */
+template <int dim>
+class SystemSolver
+{
+public:
+  using Vector = typename Equilibrium<dim>::Vector;
+
+  /** @param degree of the basis */
+  SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
+               const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
+               const ContactPoints<dim> &contact, Timings &timings);
+
+  /**
+   * Solves K du = r to |r - K du| <= tolerance |r| or better, K at the last residual()
+   * (collective).
+   *
+   * @param may_condense whether contact alone changes K: no artificial mass above the default one,
+   *                     no second attempt
+   * @throws LinearSolverFailure if K is singular or an iteration does not converge
+   */
+  LinearSolveResult solve(const Vector &r, const double tolerance, const bool may_condense,
+                          Vector &du);
+
+private:
+  LinearSolveResult solve_condensed(const Vector &r, Vector &du);
+
+  const Fields<dim>               &fields;
+  Equilibrium<dim>                &equilibrium;
+  const ContactPoints<dim>        &contact;
+  Timings                         &timings;
+  LinearSolver                     linear_solver;
+  std::unique_ptr<CondensedSolver> condensed_solver; //!< made when first needed
+};
+} // namespace scree

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <scree/bodies/body.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <vector>
+
+namespace scree
+{
+/** The increment of the last step, from which the next one begins. */
+template <int dim>
+struct Predictor
+{
+  double step_size = 0.; //!< of the last step [time]; 0: there is none
+  /** On a fixed geometry: the increment over step_size, at the owned unknowns. */
+  dealii::TrilinosWrappers::MPI::Vector rate;
+  /** On a moving geometry: of the deformable bodies, else empty. */
+  std::vector<ExtendedIncrement<dim>>            of_bodies;
+  std::vector<typename RigidPose<dim>::Unknowns> of_rigid; //!< the same of the rigid ones
+
+  bool is_empty() const
+  {
+    return step_size == 0.;
+  }
+
+  /**
+   * On a moving geometry: the displacement of body number `b` at `x` [L] that the last increment
+   * lets expect in a step of `next_step_size`, `du(x - du(x)) dt/dt_n`, for du belongs to where the
+   * point was before.
+   */
+  dealii::Tensor<1, dim> expected_increment(const Body<dim> &body, const unsigned int b,
+                                            const dealii::Point<dim> &x,
+                                            const double              next_step_size) const;
+};
+} // namespace scree

@@ -1,0 +1,197 @@
+#include <scree/base/exceptions.h>
+#include <scree/mechanics/balance_checks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+namespace
+{
+/** Of the forces on a body: the imbalance that ends a run. */
+constexpr double largest_imbalance = 1e-3;
+/** Of all forces: what rounding may leave on a body that carries hardly any. */
+constexpr double round_off = 1e-6;
+/** Of the forces on a body times half its size: the held moment that is told. */
+constexpr double told_imbalance = 1e-2;
+/** Of a stiffness times a motion: what is no force but rounding. */
+constexpr double no_force = 1e-11;
+/** Of the result: the error of linear kinematics that is told. */
+constexpr double largest_rotation_error = 0.01;
+
+/** Where the imbalance comes from, and what helps. */
+struct Explanation
+{
+  std::string cause, remedy;
+};
+
+template <int dim>
+Explanation
+explain_imbalance(const DiscreteProblem<dim> &problem, const NewtonParameters &newton)
+{
+  const Equilibrium<dim> &equilibrium = problem.equilibrium();
+  const double            tolerance   = newton.relative_tolerance * equilibrium.force_scale();
+  if (equilibrium.round_off() <= tolerance + newton.absolute_tolerance)
+    return {"; the tolerances of the iteration are Relative tolerance = "
+              + short_number(newton.relative_tolerance)
+              + ", Absolute tolerance = " + short_number(newton.absolute_tolerance)
+              + " of forces of " + short_number(equilibrium.force_scale()),
+            "tighten them in section Solver/Newton"};
+  double stiffest = 0., softest = std::numeric_limits<double>::max(), poisson = -1.;
+  for (const auto &body : problem.bodies)
+    if (!body.is_rigid())
+      {
+        stiffest = std::max(stiffest, body.material->young());
+        softest  = std::min(softest, body.material->young());
+        poisson  = std::max(poisson, body.material->poisson());
+      }
+  return {"; round-off in the stiffness of the bodies is that large (Young's moduli from "
+            + short_number(softest) + " to " + short_number(stiffest)
+            + ", Poisson's ratios up to 0.5 - " + short_number(0.5 - poisson) + ")",
+          "make bodies that hardly deform rigid (Law = rigid), keep Poisson's ratio below 0.49999"};
+}
+
+template <int dim>
+[[noreturn]] void
+throw_out_of_balance(const DiscreteProblem<dim> &problem, const BodyBalance<dim> &balance,
+                     const bool is_force, const NewtonParameters &newton, const double time)
+{
+  const Body<dim>  &body = problem.bodies[balance.body];
+  const std::string what
+    = "the step to time " + short_number(time) + " converged, but the body '" + body.name
+      + "' is not in balance: "
+      + (is_force
+           ? "its contact forces, loads and reactions of " + short_number(balance.force_scale)
+               + " in all add up to " + short_number(balance.force.norm())
+           : "the moments of its contact forces, loads and reactions ("
+               + short_number(balance.force_scale) + " in all, at distances of about "
+               + short_number(balance.radius) + ") add up to "
+               + short_number(balance.moment.norm()));
+  const auto [cause, remedy] = explain_imbalance(problem, newton);
+  throw UserError(body.path, what + cause, remedy);
+}
+
+/** Angles of the rigid bodies, and the sums of their contact pressures times arms (collective). */
+template <int dim>
+void
+find_rigid_rotations(const DiscreteProblem<dim>              &problem,
+                     const typename Equilibrium<dim>::Vector &u, std::vector<double> &angle,
+                     std::vector<double> &moment)
+{
+  const auto  ghosted = problem.equilibrium().with_ghosts(u);
+  const auto &bodies  = problem.bodies;
+  const auto &contact = problem.contact();
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (bodies[b].is_rigid())
+      angle[b] = RigidPose<dim>(*bodies[b].rigid, rigid_unknowns(problem.fields, b, ghosted))
+                   .rotation()
+                   .norm();
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      const ContactPair       &pair  = contact.pairs()[point.pair];
+      const double             f     = point.weight * std::abs(contact.responses()[i].pressure);
+      for (const unsigned int b : {pair.a, pair.b})
+        if (bodies[b].is_rigid())
+          moment[b] += f * point.position.distance(bodies[b].rigid->reference_point);
+    }
+  dealii::Utilities::MPI::sum(moment, problem.communicator(), moment);
+}
+} // namespace
+
+template <int dim>
+std::vector<BodyBalance<dim>>
+require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
+                const NewtonParameters &newton, const double time, RunLog &run_log)
+{
+  const Equilibrium<dim> &equilibrium = problem.equilibrium();
+  const auto             &bodies      = problem.bodies;
+  const auto              balances    = equilibrium.balance(u);
+  // Of bodies without any forces: what moving the softest of them leaves by rounding.
+  const auto [lower, upper] = problem.grid.box().get_boundary_points();
+  double motion             = problem.is_moving() ? 1e-3 * lower.distance(upper) : 0.;
+  double softest            = std::numeric_limits<double>::max();
+  for (const BodyBalance<dim> &balance : balances)
+    {
+      motion  = std::max(motion, balance.largest_u);
+      softest = std::min(softest, bodies[balance.body].material->young()
+                                    * std::pow(balance.radius, dim - 2));
+    }
+  const double scale     = equilibrium.force_scale();
+  const double tolerance = std::max(newton.relative_tolerance * scale,
+                                    std::min(equilibrium.round_off(), round_off * scale));
+  for (const BodyBalance<dim> &balance : balances)
+    {
+      const Body<dim> &body = bodies[balance.body];
+      // Residuals of the nodes may all point the same way.
+      const double allowed = largest_imbalance * balance.force_scale
+                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion;
+      const double held = equilibrium.held_moment(balance.body);
+      // On a moving geometry points are where they were at the start of the step.
+      const double allowed_moment
+        = 2. * balance.radius * (allowed + 2. * held)
+          + (problem.is_moving() ? 2. * balance.largest_u * balance.force_scale : 0.);
+      const bool is_force = !(balance.force.norm() <= allowed);
+      if (held > told_imbalance * balance.force_scale
+          && run_log.warnings.is_new(Warning::badly_held, balance.body))
+        run_log.log.line("Warning: contact at few points holds the body " + body.name
+                         + " against turning only to "
+                         + short_number(100. * held / balance.force_scale)
+                         + " % of what acts on it times half its size; refine the grid there");
+      // Other laws balance moments where the forces were at another time.
+      const bool has_moments = !problem.is_moving() || body.law->work() == WorkOf::current;
+      if (is_force || (has_moments && !(balance.moment.norm() <= allowed_moment)))
+        throw_out_of_balance(problem, balance, is_force, newton, time);
+    }
+  return balances;
+}
+
+template <int dim>
+void
+warn_of_rotations(const DiscreteProblem<dim>              &problem,
+                  const std::vector<BodyBalance<dim>>     &balances,
+                  const typename Equilibrium<dim>::Vector &u, const double time, RunLog &run_log)
+{
+  const auto         &bodies = problem.bodies;
+  std::vector<double> moment(bodies.size()), angle(bodies.size());
+  find_rigid_rotations(problem, u, angle, moment);
+  for (const BodyBalance<dim> &balance : balances)
+    {
+      angle[balance.body]  = balance.rotation;
+      moment[balance.body] = 0.5 * balance.force_scale * balance.radius;
+    }
+  double       stiffness = 0.;
+  const auto   volumes   = problem.bulk.volumes();
+  const double work      = 2. * problem.equilibrium().energies().stored();
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (!bodies[b].is_rigid())
+      stiffness += bodies[b].material->young() * volumes[b];
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const double second_order = 0.5 * angle[b] * angle[b] * moment[b];
+      const bool   is_strained  = work > 1e-20 * angle[b] * angle[b] * stiffness;
+      if (is_strained && second_order > largest_rotation_error * work
+          && run_log.warnings.is_new(Warning::turned, b))
+        run_log.log.line("Warning: the body " + bodies[b].name + " has turned by "
+                         + short_number(angle[b] * 180. / M_PI) + " degrees at time "
+                         + short_number(time)
+                         + ". On a fixed geometry, where rotations are taken as small, this makes "
+                           "forces wrong by more than 1 %: set Moving geometry/Update = every "
+                           "step");
+    }
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template std::vector<BodyBalance<dim>> require_balance(                                     \
+    const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &, const NewtonParameters &, \
+    const double, RunLog &);                                                                  \
+  template void warn_of_rotations(const DiscreteProblem<dim> &,                               \
+                                  const std::vector<BodyBalance<dim>> &,                      \
+                                  const Equilibrium<dim>::Vector &, const double, RunLog &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,110 @@
+#include <scree/mechanics/discrete_problem.h>
+#include <scree/mechanics/material_update.h>
+
+namespace scree
+{
+namespace
+{
+/** What `make` returns; its wall time is counted as that of the part. */
+template <typename F>
+auto
+timed(Timings &timings, const std::string &part, const F &make)
+{
+  const Timings::Scope scope(timings, part);
+  return make();
+}
+
+template <int dim>
+ContactPoints<dim>
+contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, const double step_size)
+{
+  const Predictor<dim>                   &predictor = state.predictor;
+  typename ContactPoints<dim>::Prediction prediction;
+  if (problem.is_moving() && !predictor.is_empty())
+    prediction = [&](const unsigned int b, const dealii::Point<dim> &x) {
+      return predictor.expected_increment(state.bodies[b], b, x, step_size);
+    };
+  typename Bulk<dim>::Vector ratios;
+  if (problem.step_start)
+    ratios = problem.bulk.nodal_secant_ratios();
+  return ContactPoints<dim>(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
+                            problem.shift(), prediction,
+                            problem.step_start ? &problem.step_start->displacement() : nullptr,
+                            problem.step_start ? &ratios : nullptr);
+}
+} // namespace
+
+template <int dim>
+DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State<dim> &state,
+                                           const double step_size)
+    : contact(timed(problem.timings, "contact search",
+                    [&]() { return contact_points(problem, state, step_size); }))
+    , equilibrium(timed(problem.timings, "linear assembly",
+                        [&]() {
+                          return Equilibrium<dim>(problem.fields, problem.bodies, problem.bulk,
+                                                  problem.boundary_terms, contact);
+                        }))
+    , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
+             equilibrium, contact, problem.timings)
+{
+}
+
+template <int dim>
+DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
+                                      const std::vector<ContactPair> &pairs,
+                                      const ProblemParameters &parameters, State<dim> &state,
+                                      const double step_size, Timings &timings)
+    : parameters(parameters)
+    , grid(grid)
+    , bodies(state.bodies)
+    , pairs(pairs)
+    , level_set_nodes(
+        timed(timings, "fields", [&]() { return LevelSetNodes<dim>(grid, parameters.degree); }))
+    , fields(timed(timings, "fields",
+                   [&]() {
+                     return Fields<dim>(grid, level_set_nodes, bodies,
+                                        BoundaryTerms<dim>::n_multipliers(bodies));
+                   }))
+    , quadrature(timed(timings, "quadrature",
+                       [&]() { return CutQuadrature<dim>(fields, level_set_nodes, bodies); }))
+    , step_start(is_moving()
+                   ? timed(timings, "material points", [&]() { return start_of_step(state); })
+                   : nullptr)
+    , bulk(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
+                 [&]() {
+                   return Bulk<dim>(fields, quadrature, bodies, parameters.ghost_penalty,
+                                    step_start.get());
+                 }))
+    , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
+                           [&]() {
+                             return BoundaryTerms<dim>(fields, level_set_nodes, quadrature, bodies,
+                                                       bulk, state.time);
+                           }))
+    , timings(timings)
+{
+  find_contact(state, step_size);
+}
+
+template <int dim>
+std::unique_ptr<StepStart<dim>>
+DiscreteProblem<dim>::start_of_step(State<dim> &state) const
+{
+  const MovingGeometryParameters &moving = parameters.moving;
+  if (state.has_started)
+    distribute_points(fields, moving, state.points);
+  else
+    state.points = seed_points(fields, level_set_nodes, bodies, quadrature, moving);
+  return std::make_unique<StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
+}
+
+template <int dim>
+void
+DiscreteProblem<dim>::find_contact(const State<dim> &state, const double step_size)
+{
+  equations.reset();
+  equations = std::make_unique<Equations>(*this, state, step_size);
+}
+
+template class DiscreteProblem<2>;
+template class DiscreteProblem<3>;
+} // namespace scree

@@ -1,0 +1,129 @@
+#include <scree/mechanics/material_update.h>
+#include <scree/points/migration.h>
+#include <scree/points/seeding.h>
+#include <scree/points/splitting.h>
+
+namespace scree
+{
+namespace
+{
+/** m of the m^dim points of a cell. */
+unsigned int
+points_per_direction(const MovingGeometryParameters &parameters, const unsigned int degree)
+{
+  return parameters.points_per_direction > 0 ? parameters.points_per_direction : degree + 1;
+}
+
+/** Displacement and its gradient at a point of a cell with the nodal values `nodal`. */
+template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<2, dim>>
+value_and_gradient(const Fields<dim> &fields, const PointInCell<dim> &point, const double *nodal,
+                   ShapeValues<dim> &shape)
+{
+  std::pair<dealii::Tensor<1, dim>, dealii::Tensor<2, dim>> result;
+  const double scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
+  fields.basis.evaluate(point.unit_point, shape);
+  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.first[d] += nodal[a * dim + d] * shape.value[a];
+        result.second[d] += nodal[a * dim + d] * scale * shape.gradient[a];
+      }
+  return result;
+}
+} // namespace
+
+template <int dim>
+MaterialPoints<dim>
+seed_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+            const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
+            const MovingGeometryParameters &parameters)
+{
+  std::vector<double> density;
+  for (const auto &body : bodies)
+    density.push_back(body.is_rigid() ? 0. : body.material->density());
+  const PointSeeding<dim> seeding(fields, level_set_nodes, bodies, quadrature, density);
+  const unsigned int      n_internal
+    = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
+  return parameters.places == PointPlaces::quadrature_points
+           ? seeding.at_quadrature_points(n_internal)
+           : seeding.on_sub_grid(points_per_direction(parameters, fields.basis.degree), n_internal);
+}
+
+template <int dim>
+void
+distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &parameters,
+                  MaterialPoints<dim> &points)
+{
+  // Points may spread a little first, but in a cell that was halved they are divided.
+  constexpr double largest_spread = 1.4;
+  const auto       owner = [&](const dealii::Point<dim> &x) { return fields.grid.locate(x).rank; };
+  send_to_owners<dim>(points, owner, fields.grid.communicator());
+  std::vector<double> cell_size;
+  for (const auto &location : locate_points(fields, points))
+    cell_size.push_back(largest_spread
+                        * fields.grid.cells()[fields.cells()[location.active_cell].grid_cell].size);
+  const unsigned int degree = fields.basis.degree;
+  split_points(points, cell_size, points_per_direction(parameters, degree),
+               {degree, parameters.support});
+  // The parts of a point may lie in cells of other processes.
+  send_to_owners<dim>(points, owner, fields.grid.communicator());
+}
+
+template <int dim>
+MaterialPoints<dim>
+moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>> &bodies,
+             const Fields<dim> &fields, const Bulk<dim> &bulk, const typename Bulk<dim>::Vector &u)
+{
+  MaterialPoints<dim>                 points     = old_points;
+  const StepStart<dim>               &step_start = *bulk.step_start();
+  const std::vector<double>           values     = values_by_cell(fields, u);
+  const auto                          volumes    = bulk.cell_volumes(u);
+  const unsigned int                  n          = fields.basis.n_nodes * dim;
+  std::vector<dealii::Tensor<1, dim>> increments(points.size());
+  std::vector<dealii::Tensor<2, dim>> gradients(points.size());
+  ShapeValues<dim>                    shape;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    {
+      const PointInCell<dim> &location = step_start.material_points()[p];
+      const auto              cell     = location.active_cell;
+      std::tie(increments[p], gradients[p])
+        = value_and_gradient(fields, location, &values[std::size_t(cell) * n], shape);
+
+      const auto             &law     = *bodies[points.body[p]].law;
+      const PointHistory<dim> history = step_start.history_of_material_point(p);
+      const IncrementStart    start   = law.start(history);
+      dealii::Tensor<2, dim>  F_D     = gradients[p];
+      for (unsigned int d = 0; d < dim; ++d)
+        F_D[d][d] += 1.;
+      F_D = bulk.projected_increment(cell, location.unit_point, volumes[cell], F_D, start);
+      IncrementResponse<dim> response;
+      law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
+                  dealii::ArrayView<const IncrementStart>(&start, 1),
+                  dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          points.stress[p][i][j] = response.cauchy[i][j];
+      if (points.n_internal() > 0)
+        {
+          const PointHistory<dim> next = law.finish(history, F_D, response);
+          store_internal(law, next, &points.internal[p * points.n_internal()]);
+        }
+    }
+  points.move(increments, gradients);
+  return points;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template MaterialPoints<dim> seed_points(                                                      \
+    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,             \
+    const CutQuadrature<dim> &, const MovingGeometryParameters &);                               \
+  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &,         \
+                                  MaterialPoints<dim> &);                                        \
+  template MaterialPoints<dim> moved_points(const MaterialPoints<dim> &,                         \
+                                            const std::vector<Body<dim>> &, const Fields<dim> &, \
+                                            const Bulk<dim> &, const Bulk<dim>::Vector &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

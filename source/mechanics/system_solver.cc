@@ -1,0 +1,65 @@
+#include <scree/mechanics/system_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace scree
+{
+template <int dim>
+SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
+                                const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
+                                const ContactPoints<dim> &contact, Timings &timings)
+    : fields(fields)
+    , equilibrium(equilibrium)
+    , contact(contact)
+    , timings(timings)
+    , linear_solver(parameters, dim, degree)
+{
+  linear_solver.set_near_null_space(equilibrium.rigid_motions());
+  linear_solver.set_border(fields.n_trailing());
+}
+
+template <int dim>
+LinearSolveResult
+SystemSolver<dim>::solve(const Vector &r, const double tolerance, const bool may_condense,
+                         Vector &du)
+{
+  const auto n_contact_points
+    = dealii::Utilities::MPI::sum(contact.points().size(), fields.grid.communicator());
+  if (may_condense && equilibrium.is_linear_but_for_contact()
+      && linear_solver.condenses(fields.n_dofs(), dim * n_contact_points)
+      && !equilibrium.has_free_rigid_bodies())
+    try
+      {
+        return solve_condensed(r, du);
+      }
+    catch (const LinearSolverFailure &)
+      {
+        // The full system tells what is wrong, if anything is.
+      }
+  const auto *matrix = [&]() {
+    const Timings::Scope scope(timings, "tangent");
+    return &equilibrium.tangent();
+  }();
+  const Timings::Scope scope(timings, "linear solver");
+  return linear_solver.solve(*matrix, du, r, equilibrium.is_symmetric(), tolerance);
+}
+
+template <int dim>
+LinearSolveResult
+SystemSolver<dim>::solve_condensed(const Vector &r, Vector &du)
+{
+  const Timings::Scope scope(timings, "linear solver");
+  if (!condensed_solver)
+    {
+      const auto system = equilibrium.condensation(false);
+      condensed_solver
+        = std::make_unique<CondensedSolver>(system.glued, system.jumps, system.symmetric);
+    }
+  else if (condensed_solver->is_worth_updating())
+    condensed_solver->update(equilibrium.condensation(true).glued);
+  return condensed_solver->solve(equilibrium.tangent_changes(), dim, du, r);
+}
+
+template class SystemSolver<2>;
+template class SystemSolver<3>;
+} // namespace scree

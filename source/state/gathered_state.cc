@@ -1,0 +1,264 @@
+#include <scree/base/exceptions.h>
+#include <scree/state/gather.h>
+#include <scree/state/gathered_state.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace scree
+{
+namespace
+{
+/** Places closer than this part of the finest cell are the same. */
+constexpr double resolution = 1e-9;
+
+/** Calls f(body, position, first unknown) for the own nodes; those of several cells repeatedly. */
+template <int dim, typename F>
+void
+for_each_node(const Fields<dim> &fields, const F &f)
+{
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const ActiveCell &cell     = fields.cells()[a];
+      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
+      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        if (fields.owned().is_element(fields.nodes(a)[i]))
+          f(cell.body,
+            geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i)),
+            fields.nodes(a)[i]);
+    }
+}
+
+/** Calls f(i, unknown) for the own ones of the unknowns without a node. */
+template <int dim, typename F>
+void
+for_each_trailing(const Fields<dim> &fields, const F &f)
+{
+  for (unsigned int i = 0; i < fields.n_trailing(); ++i)
+    {
+      const DofIndex unknown = fields.n_dofs() - fields.n_trailing() + i;
+      if (fields.owned().is_element(unknown))
+        f(i, unknown);
+    }
+}
+
+/** The row of a place. @throws UserError if there is none */
+template <int dim>
+const double *
+row_of(const PlacedValues<dim> &values, const unsigned int number, const dealii::Point<dim> &x,
+       const std::string &directory)
+{
+  const double *row = values.find(number, x);
+  require(row != nullptr, directory, "the checkpoint belongs to another grid",
+          "go on with the version of scree that wrote it (see log.txt), or start the run anew");
+  return row;
+}
+
+void
+require_consistent(const bool is_consistent, const std::string &directory)
+{
+  require(is_consistent, directory, "the checkpoint contradicts itself", "start the run anew");
+}
+
+/** That points belong to bodies, are near the grid and no larger than it: else they would be
+ * searched for in vain, or divided without end. */
+template <int dim>
+void
+require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
+              const dealii::BoundingBox<dim> &box, const std::string &directory)
+{
+  const auto [lower, upper] = box.get_boundary_points();
+  const double reach        = lower.distance(upper);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    require(points.body[i] < n_bodies && points.position[i].distance(box.center()) < reach
+              && points.spacing(i) < reach,
+            directory, "the checkpoint has material points outside of bodies and grid",
+            "start the run anew");
+}
+
+template <int dim>
+typename GatheredState<dim>::Geometry
+saved_geometry(const Body<dim> &body)
+{
+  typename GatheredState<dim>::Geometry result;
+  result.pose = body.pose.unknowns();
+  if (body.is_rigid())
+    return result;
+  result.lower        = body.level_set.lower();
+  result.n_nodes      = body.level_set.n_nodes();
+  result.level_set    = body.level_set.values();
+  result.box          = body.box;
+  result.displacement = body.displacement;
+  result.has_shape    = body.shape != nullptr;
+  return result;
+}
+
+template <int dim>
+void
+restore_geometry(const typename GatheredState<dim>::Geometry &saved, const std::string &directory,
+                 BodyGeometry<dim> &geometry)
+{
+  const auto &n = saved.n_nodes;
+  require_consistent(
+    saved.level_set.size()
+      == std::accumulate(n.begin(), n.end(), std::size_t(1), std::multiplies<std::size_t>()),
+    directory);
+  geometry.level_set          = Lattice<dim>(geometry.level_set.frame(), saved.lower, n);
+  geometry.level_set.values() = saved.level_set;
+  geometry.box                = saved.box;
+  geometry.displacement       = saved.displacement;
+  if (!saved.has_shape)
+    geometry.shape = nullptr;
+}
+
+template <int dim>
+void
+gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredState<dim> &result)
+{
+  std::vector<double> points;
+  points.reserve(state.points.size() * state.points.n_values());
+  for (std::size_t i = 0; i < state.points.size(); ++i)
+    state.points.pack(i, points);
+  result.points                     = gather_arrays(points, communicator);
+  result.step_end                   = state.step_end;
+  result.step_end.driving.of_points = gather_joined(state.step_end.driving.of_points, communicator);
+  result.increments_of_bodies       = state.predictor.of_bodies;
+  result.increments_of_rigid        = state.predictor.of_rigid;
+  for (const Body<dim> &body : state.bodies)
+    result.bodies.push_back(saved_geometry(body));
+}
+
+template <int dim>
+void
+gather_fixed(const State<dim> &state, const Fields<dim> &fields, const ContactPoints<dim> &contact,
+             GatheredState<dim> &result)
+{
+  const MPI_Comm communicator = fields.grid.communicator();
+  const double   length       = resolution * fields.grid.finest_size();
+  const auto     origin       = fields.grid.box().get_boundary_points().first;
+  result.nodes                = PlacedValues<dim>(2 * dim, origin, length);
+  for_each_node(fields,
+                [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
+                  std::vector<double> row;
+                  for (const auto *vector : {&state.displacement, &state.predictor.rate})
+                    for (unsigned int d = 0; d < dim; ++d)
+                      row.push_back((*vector)(first + d));
+                  result.nodes.add(body, x, row);
+                });
+  result.nodes.gather(communicator);
+
+  result.contact = PlacedValues<dim>(2 * dim + 2, origin, length);
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const auto         &tau = state.contact.tau[i], &jump = state.contact.jump[i];
+      std::vector<double> row(tau.begin_raw(), tau.end_raw());
+      row.insert(row.end(), jump.begin_raw(), jump.end_raw());
+      row.insert(row.end(), {state.contact.pressure[i], double(state.was_closed[i])});
+      result.contact.add(contact.points()[i].pair, contact.points()[i].position, row);
+    }
+  result.contact.gather(communicator);
+
+  result.trailing.resize(2 * fields.n_trailing());
+  for_each_trailing(fields, [&](const unsigned int i, const DofIndex unknown) {
+    result.trailing[2 * i]     = state.displacement(unknown);
+    result.trailing[2 * i + 1] = state.predictor.rate(unknown);
+  });
+  dealii::Utilities::MPI::sum(result.trailing, communicator, result.trailing);
+}
+} // namespace
+
+template <int dim>
+GatheredState<dim>
+gather(const State<dim> &state, const Fields<dim> &fields, const ContactPoints<dim> &contact,
+       const bool is_moving)
+{
+  GatheredState<dim> result;
+  result.energies       = state.energies;
+  result.last_step_size = state.predictor.step_size;
+  if (is_moving)
+    gather_moving(state, fields.grid.communicator(), result);
+  else
+    gather_fixed(state, fields, contact, result);
+  return result;
+}
+
+template <int dim>
+void
+restore_fixed(const GatheredState<dim> &saved, const Fields<dim> &fields,
+              const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
+{
+  require_consistent(saved.trailing.size() == 2 * fields.n_trailing(), directory);
+  auto &u = state.displacement, &rate = state.predictor.rate;
+  rate = u;
+  for_each_node(fields,
+                [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
+                  const double *row = row_of(saved.nodes, body, x, directory);
+                  for (auto *vector : {&u, &rate})
+                    for (unsigned int d = 0; d < dim; ++d)
+                      (*vector)(first + d) = *row++;
+                });
+  for_each_trailing(fields, [&](const unsigned int i, const DofIndex unknown) {
+    u(unknown)    = saved.trailing[2 * i];
+    rate(unknown) = saved.trailing[2 * i + 1];
+  });
+  u.compress(dealii::VectorOperation::insert);
+  rate.compress(dealii::VectorOperation::insert);
+  state.predictor.step_size = saved.last_step_size;
+
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPoint<dim> &point = contact.points()[i];
+      const double            *row   = row_of(saved.contact, point.pair, point.position, directory);
+      std::copy_n(row, dim, state.contact.tau[i].begin_raw());
+      std::copy_n(row + dim, dim, state.contact.jump[i].begin_raw());
+      state.contact.pressure[i] = row[2 * dim];
+      state.was_closed[i]       = row[2 * dim + 1] != 0.;
+    }
+  state.energies    = saved.energies;
+  state.has_started = true;
+}
+
+template <int dim>
+void
+restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &background,
+               const MPI_Comm communicator, const std::string &directory, State<dim> &state)
+{
+  const unsigned int rank     = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int n_here   = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  const unsigned int n_values = state.points.n_values();
+  require_consistent(saved.bodies.size() == state.bodies.size(), directory);
+  for (const auto &points : saved.points)
+    require_consistent(points.size() % n_values == 0, directory);
+  state.points = MaterialPoints<dim>(state.points.n_internal());
+  for (unsigned int p = 0; p < saved.points.size(); ++p)
+    if (p * n_here / saved.points.size() == rank)
+      for (std::size_t i = 0; i < saved.points[p].size(); i += n_values)
+        state.points.unpack(&saved.points[p][i]);
+  require_sound(state.points, state.bodies.size(), background, directory);
+  state.step_end = saved.step_end;
+  if (rank > 0)
+    state.step_end.driving.of_points.clear();
+  state.predictor.step_size = saved.last_step_size;
+  state.predictor.of_bodies = saved.increments_of_bodies;
+  state.predictor.of_rigid  = saved.increments_of_rigid;
+  for (unsigned int b = 0; b < state.bodies.size(); ++b)
+    if (!state.bodies[b].is_rigid())
+      restore_geometry<dim>(saved.bodies[b], directory, state.bodies[b]);
+  state.energies    = saved.energies;
+  state.has_started = true;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                              \
+  template GatheredState<dim> gather(const State<dim> &, const Fields<dim> &,                               \
+                                     const ContactPoints<dim> &, const bool);                               \
+  template void               restore_fixed(const GatheredState<dim> &, const Fields<dim> &,                \
+                                            const ContactPoints<dim> &, const std::string &, State<dim> &); \
+  template void restore_moving(const GatheredState<dim> &, const dealii::BoundingBox<dim> &,                \
+                               const MPI_Comm, const std::string &, State<dim> &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+} // namespace scree

@@ -1,0 +1,190 @@
+// A step that is rejected leaves the state as it was; a model that is restored from a gathered
+// state takes the next step to the last bit as the one that went on.
+#include <gtest/gtest.h>
+
+#include <scree/application/stepper.h>
+
+#include <string>
+
+using namespace scree;
+using namespace dealii;
+
+namespace
+{
+const std::string contact_and_time = R"(
+subsection Contact
+  set Names = all
+  subsection all
+    set Law = coulomb
+    set Friction coefficient = 0.3
+  end
+end
+subsection Time
+  set Steps = 4
+end
+)";
+
+/** A block that is pressed on a bed and drawn along it. */
+std::string
+block_on_bed(const std::string &moving_geometry)
+{
+  return R"(
+subsection Grid
+  set Lower corner = -1, -1
+  set Upper corner = 1, 1
+  set Cells = 4, 4
+  set Finest level = 1
+end
+subsection Materials
+  set Names = m
+  subsection m
+    set Young's modulus = 100
+    set Poisson's ratio = 0.3
+  end
+end
+subsection Bodies
+  set Names = bed, block
+  subsection bed
+    set Material = m
+    subsection Shape
+      set Type = half space
+      set Point = 0, 0.03
+      set Normal = 0, 1
+    end
+    subsection Boundary conditions
+      set Names = base
+      subsection base
+        set On = y-
+        set Value = 0; 0
+      end
+    end
+  end
+  subsection block
+    set Material = m
+    subsection Shape
+      set Type = box
+      set Lower corner = -0.47, 0.03
+      set Upper corner = 0.46, 0.79
+    end
+    subsection Boundary conditions
+      set Names = top
+      subsection top
+        set On = surface
+        set Where = y > 0.7
+        set Value = 0.1*t; -0.05*t
+      end
+    end
+  end
+end
+)" + contact_and_time
+         + R"(
+subsection Moving geometry
+)" + moving_geometry
+         + "end\n";
+}
+
+/** Model and stepper of an input, without results. */
+struct ModelRun
+{
+  explicit ModelRun(const std::string &text)
+      : parameters(read(text))
+      , run_log{Log(MPI_COMM_WORLD, ""), {}, {}}
+      , control(parameters.time)
+      , model(parameters, control.step_size(), MPI_COMM_WORLD, run_log)
+      , stepper(parameters, control, model, run_log)
+  {
+  }
+
+  static Parameters<2> read(const std::string &text)
+  {
+    ParameterFile file = ParameterFile::from_string(text);
+    Parameters<2> result;
+    result.declare(file);
+    file.check();
+    return result;
+  }
+
+  /** An accepted step. */
+  void step()
+  {
+    auto attempt = stepper.attempt();
+    ASSERT_TRUE(attempt.is_accepted());
+    control.accept(attempt.record.newton_iterations);
+    if (model.is_moving())
+      model.move_geometry(std::move(attempt.points), control.step_size());
+  }
+
+  const Parameters<2> parameters;
+  RunLog              run_log;
+  StepControl         control;
+  Model<2>            model;
+  Stepper<2>          stepper;
+};
+
+/** That all numbers of two states are the same. */
+void
+expect_same(const State<2> &a, const State<2> &b)
+{
+  EXPECT_EQ(a.time, b.time);
+  auto difference = a.displacement;
+  difference -= b.displacement;
+  EXPECT_EQ(difference.linfty_norm(), 0.);
+  EXPECT_EQ(a.contact.tau, b.contact.tau);
+  EXPECT_EQ(a.contact.jump, b.contact.jump);
+  EXPECT_EQ(a.contact.pressure, b.contact.pressure);
+  EXPECT_EQ(a.was_closed, b.was_closed);
+  EXPECT_EQ(a.energies.strain, b.energies.strain);
+  EXPECT_EQ(a.energies.dissipation, b.energies.dissipation);
+  EXPECT_EQ(a.points.position, b.points.position);
+  EXPECT_EQ(a.points.deformation_gradient, b.points.deformation_gradient);
+  EXPECT_EQ(a.step_end.contact.tau, b.step_end.contact.tau);
+  ASSERT_EQ(a.bodies.size(), b.bodies.size());
+  for (unsigned int i = 0; i < a.bodies.size(); ++i)
+    EXPECT_EQ(a.bodies[i].level_set.values(), b.bodies[i].level_set.values());
+}
+
+void
+expect_goes_on(const std::string &text)
+{
+  ModelRun first(text);
+  first.step();
+  first.step();
+  const GatheredState<2> saved = first.model.gathered();
+
+  ModelRun second(text);
+  second.control.resume(first.control.record());
+  second.model.restore(saved, second.control.time(), second.control.step_size(), "directory");
+  EXPECT_EQ(second.model.state().displacement.size(), first.model.state().displacement.size());
+  first.step();
+  second.step();
+  EXPECT_GT(first.model.state().energies.dissipation, 0.);
+  expect_same(first.model.state(), second.model.state());
+}
+} // namespace
+
+TEST(Stepper, FixedGeometryGoesOnFromGatheredState)
+{
+  expect_goes_on(block_on_bed(""));
+}
+
+TEST(Stepper, MovingGeometryGoesOnFromGatheredState)
+{
+  expect_goes_on(block_on_bed("set Update = every step\n"));
+}
+
+TEST(Stepper, RejectedStepLeavesState)
+{
+  ModelRun run(block_on_bed("set Update = every step\nset Largest motion = 0.12\n"));
+  ASSERT_TRUE(run.control.reject()); // half a step is small enough
+  run.model.begin_again(run.control.step_size());
+  run.step();
+  const State<2> before = run.model.state();
+  // Of the same model, for a whole step.
+  TimeParameters whole = run.parameters.time;
+  whole.steps          = 1;
+  StepControl control(whole);
+  Stepper<2>  stepper(run.parameters, control, run.model, run.run_log);
+  EXPECT_EQ(stepper.attempt().outcome, Attempt<2>::Outcome::too_large);
+  expect_same(before, run.model.state());
+  EXPECT_EQ(before.energies.external_work, run.model.state().energies.external_work);
+}
