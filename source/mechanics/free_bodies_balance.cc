@@ -2,8 +2,9 @@
 #include <scree/solver/line_search.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/trilinos_solver.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,18 +188,22 @@ FreeBodies<dim>::Balance::direction(const double length, const double damping) c
       alone    = std::max(alone, std::abs(forces[k]) / (mass[k] * length));
       stiffest = std::max(stiffest, stiffness.diag_element(k));
     }
-  double                 largest = 0.;
-  dealii::Vector<double> dq(forces.size());
+  // KLU gives the same bits in every run: BLAS rounds by the alignment of its arrays, and which
+  // contact closes first may hang on that.
+  dealii::SolverControl                  control;
+  dealii::TrilinosWrappers::SolverDirect solver(
+    control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Klu"));
+  dealii::TrilinosWrappers::SparseMatrix matrix;
+  double                                 largest = 0.;
+  dealii::Vector<double> right_side(forces.begin(), forces.end()), dq(forces.size());
   double                 s = std::max(damping * stiffest, 1e-6 * alone);
   for (unsigned int trial = 0; trial < max_trials; ++trial, s *= 10.)
     {
       damped.copy_from(stiffness);
       for (unsigned int k = 0; k < mass.size(); ++k)
         damped.add(k, k, s * mass[k]);
-      dealii::SparseDirectUMFPACK solver;
-      solver.initialize(damped);
-      std::copy(forces.begin(), forces.end(), dq.begin());
-      solver.solve(dq);
+      matrix.reinit(damped, 0.);
+      solver.solve(matrix, dq, right_side);
       largest = dq.linfty_norm();
       if (largest <= length)
         break;

@@ -129,11 +129,12 @@ struct Newton::Step
 /** What the method of the iteration is. */
 struct Newton::Progress
 {
-  bool         is_transient  = false; //!< the first part of a round
-  bool         is_later      = false; //!< in a round
-  double       mass          = 0.;    //!< s
-  unsigned int iterations    = 0;     //!< before this method
-  unsigned int n_short_steps = 0;     //!< in a row
+  bool         is_transient = false; //!< the first part of a round
+  bool         is_later     = false; //!< in a round
+  LineSearch   line_search;
+  double       mass          = 0.; //!< s
+  unsigned int iterations    = 0;  //!< before this method
+  unsigned int n_short_steps = 0;  //!< in a row
 
   /** Makes s smaller after a long step, larger after a short one. */
   void adapt(const double alpha)
@@ -234,16 +235,17 @@ Newton::search_work(Step step, const Vector &u, const Vector &du, const double w
 }
 
 Newton::Step
-Newton::search(const Vector &u, const Vector &du, const Vector &r, const double norm) const
+Newton::search(const Vector &u, const Vector &du, const Vector &r, const double norm,
+               const LineSearch method) const
 {
   Step step;
   step.r.reinit(r, true);
   evaluate(step, 1., u, du);
   for (unsigned int k = 0; k < max_halvings && !std::isfinite(step.norm); ++k)
     evaluate(step, step.alpha / 2, u, du);
-  if (!std::isfinite(step.norm) || parameters.line_search == LineSearch::none)
+  if (!std::isfinite(step.norm) || method == LineSearch::none)
     return step;
-  if (parameters.line_search == LineSearch::residual)
+  if (method == LineSearch::residual)
     return search_residual(std::move(step), u, du, norm);
   return search_work(std::move(step), u, du, r * du);
 }
@@ -273,18 +275,22 @@ Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progre
 NewtonResult
 Newton::solve(Vector &u) const
 {
-  Vector       last(u);
-  Progress     progress;
-  NewtonResult result = iterate(u, progress);
+  Vector   last(u);
+  Progress progress;
+  progress.line_search = parameters.line_search;
+  NewtonResult result  = iterate(u, progress);
   if (!hooks.set_mass)
     return result;
+  // Whether the residual fell.
   const auto go_on = [&](Vector &from) {
     progress.iterations        = result.iterations;
     NewtonResult        next   = iterate(from, progress);
+    const bool          fell   = next.residuals.back() < next.residuals.front();
     std::vector<double> before = std::move(result.residuals);
     before.insert(before.end(), next.residuals.begin(), next.residuals.end());
     next.residuals = std::move(before);
     result         = std::move(next);
+    return fell;
   };
   double transient_mass = first_mass;
   while (!result.converged() && result.iterations < parameters.max_iterations)
@@ -301,8 +307,12 @@ Newton::solve(Vector &u) const
       transient_mass        = std::max(progress.mass, first_later_mass);
       progress.mass         = first_later_mass;
       progress.is_transient = false;
-      u                     = last;
-      go_on(u);
+      // What one line search cycles in, the other one may leave.
+      progress.line_search
+        = progress.line_search == LineSearch::work ? LineSearch::residual : LineSearch::work;
+      u = last;
+      if (go_on(u))
+        last = u;
     }
   hooks.set_mass(smallest_mass);
   return result;
@@ -385,8 +395,9 @@ Newton::iterate(Vector &u, Progress &progress) const
           return result;
         }
 
-      const Step step = progress.is_transient ? search_energy(u, du, r, progress)
-                                              : search(u, du, r, iteration.residual);
+      const Step step = progress.is_transient
+                          ? search_energy(u, du, r, progress)
+                          : search(u, du, r, iteration.residual, progress.line_search);
       if (progress.is_later && !progress.is_transient)
         progress.adapt(step.alpha);
       u                           = step.u;

@@ -218,7 +218,8 @@ private:
 
   Step search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const;
 
-  Step search(const Vector &u, const Vector &du, const Vector &r, const double norm) const;
+  Step search(const Vector &u, const Vector &du, const Vector &r, const double norm,
+              const LineSearch method) const;
 
   Step search_residual(Step step, const Vector &u, const Vector &du, const double norm) const;
 
