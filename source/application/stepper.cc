@@ -80,8 +80,8 @@ Stepper<dim>::move_points(const Vector &u) const
 {
   const DiscreteProblem<dim> &problem = model.problem();
   const MaterialPoints<dim>  &points  = model.state().points;
-  auto moved  = moved_points(points, problem.bodies, problem.fields, problem.bulk,
-                             problem.equilibrium().with_ghosts(u));
+  auto                        moved
+    = moved_points(points, problem.bodies, problem.bulk, problem.equilibrium().at_points(u));
   auto reason = why_too_large(problem, points, moved);
   return {std::move(moved), std::move(reason)};
 }

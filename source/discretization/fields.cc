@@ -324,6 +324,17 @@ Fields<dim>::unit_point(const unsigned int active_cell, const dealii::Point<dim>
 }
 
 template <int dim>
+void
+Fields<dim>::evaluate_basis(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                            ShapeValues<dim> &shape) const
+{
+  const double scale = 1. / cell_size(active_cell);
+  basis.evaluate_gradients(unit_point, shape);
+  for (unsigned int a = 0; a < basis.n_nodes; ++a)
+    shape.gradient[a] *= scale;
+}
+
+template <int dim>
 NodeStencil
 Fields<dim>::local_stencil(const unsigned int body, const dealii::Point<dim> &point) const
 {

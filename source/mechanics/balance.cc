@@ -139,7 +139,7 @@ Equilibrium<dim>::balance(const Vector &u) const
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
     {
       const auto &region    = boundary_terms.regions()[r];
-      const auto  tractions = boundary_terms.tractions(r, seen_by_bulk(), time);
+      const auto  tractions = boundary_terms.tractions(r, seen_by_bulk, time);
       for (unsigned int q = 0; q < tractions.size(); ++q)
         sums[region.body].scale += region.points[q].weight * tractions[q].norm();
     }
@@ -151,7 +151,7 @@ Equilibrium<dim>::balance(const Vector &u) const
     sums[body].force += resultant.force;
     sums[body].moment += resultant.moment;
   };
-  const auto of_regions = boundary_terms.resultants(seen_by_bulk(), time);
+  const auto of_regions = boundary_terms.resultants(seen_by_bulk, time);
   for (unsigned int i = 0; i < of_regions.size(); ++i)
     add(boundary_terms.regions()[i].body, of_regions[i]);
   const auto of_supports = supports.resultants(held);

@@ -31,7 +31,7 @@ set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_node
       for (unsigned int q = 0; q < surface.points.size(); ++q)
         {
           all += surface.weights[q];
-          if (selects(geometry.lower + geometry.size * dealii::Tensor<1, dim>(surface.points[q])))
+          if (selects(fields.position(a, surface.points[q])))
             covered += surface.weights[q];
         }
       coverage[a] = all > 0. ? covered / all : 0.;

@@ -47,9 +47,8 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
     }
   for (unsigned int q = 0; q < points.points.size(); ++q)
     {
-      const dealii::Point<dim> position
-        = geometry.lower + geometry.size * dealii::Tensor<1, dim>(points.points[q]);
-      BoundaryPoint<dim> point
+      const dealii::Point<dim> position = fields.position(a, points.points[q]);
+      BoundaryPoint<dim>       point
         = {a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
       if (is_load && !on_face)
         move_to_boundary(*body.shape, geometry, point);

@@ -15,13 +15,13 @@ BoundaryTerm<dim>::BoundaryTerm(const BoundarySetting<dim>      &setting,
 
 template <int dim>
 void
-BoundaryTerm<dim>::add_internal_forces(const Vector &, const double, Vector &) const
+BoundaryTerm<dim>::add_internal_forces(const PointEvaluator<dim> &, const double, Vector &) const
 {
 }
 
 template <int dim>
 void
-BoundaryTerm<dim>::add_tangent(const Vector &, const double, Matrix &) const
+BoundaryTerm<dim>::add_tangent(const PointEvaluator<dim> &, const double, Matrix &) const
 {
 }
 
@@ -41,21 +41,22 @@ BoundaryTerm<dim>::couplings() const
 
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-BoundaryTerm<dim>::tractions(const unsigned int index, const Vector &, const double) const
+BoundaryTerm<dim>::tractions(const unsigned int index, const PointEvaluator<dim> &,
+                             const double) const
 {
   return std::vector<dealii::Tensor<1, dim>>(region(index).points.size());
 }
 
 template <int dim>
 Resultant<dim>
-BoundaryTerm<dim>::resultant_of_multipliers(const unsigned int, const Vector &) const
+BoundaryTerm<dim>::resultant_of_multipliers(const unsigned int, const PointEvaluator<dim> &) const
 {
   return {};
 }
 
 template <int dim>
 double
-BoundaryTerm<dim>::energy(const Vector &, const double) const
+BoundaryTerm<dim>::energy(const PointEvaluator<dim> &, const double) const
 {
   return 0.;
 }
@@ -65,6 +66,14 @@ std::vector<DofIndex>
 BoundaryTerm<dim>::unknowns(const BoundaryPoint<dim> &point) const
 {
   return unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes);
+}
+
+template <int dim>
+void
+BoundaryTerm<dim>::set_unknowns(const BoundaryPoint<dim> &point,
+                                std::vector<DofIndex>    &unknowns) const
+{
+  set_unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes, unknowns);
 }
 
 template <int dim>
@@ -82,21 +91,6 @@ BoundaryTerm<dim>::set_tangent(const BoundaryPoint<dim> &point, const ShapeValue
           for (unsigned int k = 0; k < dim; ++k)
             block(a * dim + i, b * dim + k) = point.weight * shape.value[a] * column[k];
       }
-}
-
-template <int dim>
-dealii::Tensor<1, dim>
-displacement_at(const Fields<dim> &fields, const BoundaryPoint<dim> &point,
-                const dealii::TrilinosWrappers::MPI::Vector &u)
-{
-  ShapeValues<dim>       shape;
-  dealii::Tensor<1, dim> result = point.start_displacement;
-  fields.basis.evaluate(point.unit_point, shape);
-  const DofIndex *nodes = fields.nodes(point.active_cell);
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] += u(nodes[a] + d) * shape.value[a];
-  return result;
 }
 
 template <int dim>
@@ -118,11 +112,9 @@ make_boundary_term(const Imposition imposition, const BoundarySetting<dim> &sett
   return nullptr;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                     \
-  template class BoundaryTerm<dim>;                                                                \
-  template dealii::Tensor<1, dim> displacement_at(const Fields<dim> &, const BoundaryPoint<dim> &, \
-                                                  const BoundaryTerm<dim>::Vector &);              \
-  template std::unique_ptr<BoundaryTerm<dim>> make_boundary_term(                                  \
+#define SCREE_INSTANTIATE(dim)                                    \
+  template class BoundaryTerm<dim>;                               \
+  template std::unique_ptr<BoundaryTerm<dim>> make_boundary_term( \
     const Imposition, const BoundarySetting<dim> &, const std::vector<unsigned int> &);
 
 SCREE_INSTANTIATE(2)

@@ -62,7 +62,8 @@ BoundaryTerms<dim>::add_loads(Vector &loads, const double time, const bool dead_
 
 template <int dim>
 void
-BoundaryTerms<dim>::add_internal_forces(const Vector &u, const double time, Vector &forces) const
+BoundaryTerms<dim>::add_internal_forces(const PointEvaluator<dim> &u, const double time,
+                                        Vector &forces) const
 {
   for (const auto &term : terms)
     term->add_internal_forces(u, time, forces);
@@ -70,7 +71,7 @@ BoundaryTerms<dim>::add_internal_forces(const Vector &u, const double time, Vect
 
 template <int dim>
 void
-BoundaryTerms<dim>::add_tangent(const Vector &u, const double time,
+BoundaryTerms<dim>::add_tangent(const PointEvaluator<dim> &u, const double time,
                                 dealii::TrilinosWrappers::SparseMatrix &matrix) const
 {
   for (const auto &term : terms)
@@ -106,21 +107,22 @@ BoundaryTerms<dim>::has_multipliers() const
 template <int dim>
 dealii::Tensor<1, dim>
 BoundaryTerms<dim>::displacement_at(const BoundaryRegion<dim> &region, const unsigned int q,
-                                    const Vector &u) const
+                                    const PointEvaluator<dim> &u) const
 {
-  return scree::displacement_at(fields, region.points[q], u);
+  return region.points[q].start_displacement + u.value(region.points[q].in_cell());
 }
 
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-BoundaryTerms<dim>::tractions(const unsigned int region, const Vector &u, const double time) const
+BoundaryTerms<dim>::tractions(const unsigned int region, const PointEvaluator<dim> &u,
+                              const double time) const
 {
   return term_of_region[region]->tractions(region, u, time);
 }
 
 template <int dim>
 std::vector<Resultant<dim>>
-BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
+BoundaryTerms<dim>::resultants(const PointEvaluator<dim> &u, const double time) const
 {
   std::vector<Resultant<dim>> result;
   for (unsigned int r = 0; r < boundary_regions.size(); ++r)
@@ -142,7 +144,7 @@ BoundaryTerms<dim>::resultants(const Vector &u, const double time) const
 
 template <int dim>
 double
-BoundaryTerms<dim>::energy(const Vector &u, const double time) const
+BoundaryTerms<dim>::energy(const PointEvaluator<dim> &u, const double time) const
 {
   double sum = 0.;
   for (const auto &term : terms)

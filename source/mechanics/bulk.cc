@@ -59,7 +59,7 @@ void
 Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const
 {
   const ActiveCell  &cell   = fields.cells()[active_cell];
-  const double       scale  = 1. / fields.grid.cells()[cell.grid_cell].size;
+  const double       scale  = 1. / fields.cell_size(active_cell);
   const double       lambda = bodies[cell.body].material->lame_lambda();
   const double       mu     = bodies[cell.body].material->shear_modulus();
   const unsigned int n      = fields.basis.n_nodes;
@@ -72,7 +72,7 @@ Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<dou
   ShapeValues<dim>       shape;
   for (unsigned int q = 0; q < points.n_points; ++q)
     {
-      fields.basis.evaluate(points.points[q], shape);
+      fields.basis.evaluate_gradients(points.points[q], shape);
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int d = 0; d < dim; ++d)
           gradient[d][a] = shape.gradient[a][d] * scale;
@@ -150,17 +150,15 @@ dealii::Tensor<1, dim>
 Bulk<dim>::body_force(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                       const double time) const
 {
-  const ActiveCell        &cell     = fields.cells()[active_cell];
-  const auto              &geometry = fields.grid.cells()[cell.grid_cell];
-  const auto              &force    = bodies[cell.body].body_force;
-  const dealii::Point<dim> position
-    = geometry.lower + geometry.size * dealii::Tensor<1, dim>(unit_point);
-  const dealii::Tensor<1, dim> b = force.vector(position, time);
+  const auto                  &body     = bodies[fields.cells()[active_cell].body];
+  const auto                  &force    = body.body_force;
+  const dealii::Point<dim>     position = fields.position(active_cell, unit_point);
+  const dealii::Tensor<1, dim> b        = force.vector(position, time);
   if (!std::isfinite(b.norm_square()))
     {
       std::ostringstream where;
       where << position << ", t = " << time;
-      throw UserError(bodies[cell.body].path + "/Body force",
+      throw UserError(body.path + "/Body force",
                       "'" + force.text() + "' is no finite number at the point " + where.str(),
                       "check divisions, roots and logarithms");
     }
@@ -231,48 +229,36 @@ Bulk<dim>::couplings() const
 template <int dim>
 BulkSample<dim>
 Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
-                  const Vector &u) const
+                  const PointEvaluator<dim> &u) const
 {
-  const ActiveCell &cell  = fields.cells()[active_cell];
-  const double      scale = 1. / fields.grid.cells()[cell.grid_cell].size;
-  ShapeValues<dim>  shape;
-  fields.basis.evaluate(unit_point, shape);
-  BulkSample<dim>        result;
-  dealii::Tensor<2, dim> gradient;
-  for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        const double value = u(fields.nodes(active_cell)[i] + c);
-        result.displacement[c] += value * shape.value[i];
-        gradient[c] += value * scale * shape.gradient[i];
-      }
+  const PointInCell<dim> point = {active_cell, unit_point};
   if (start)
-    return increment_sample({active_cell, unit_point}, result.displacement, gradient, u);
-  result.strain = symmetrize(gradient);
-  std::vector<double> rows;
-  if (projected_divergence(active_cell, unit_point, rows))
+    return increment_sample(point, u);
+  const auto  &body                   = bodies[fields.cells()[active_cell].body];
+  const double share                  = projected_shares[fields.cells()[active_cell].body];
+  const auto [displacement, gradient] = u.evaluate(point);
+  BulkSample<dim> result;
+  result.displacement = displacement;
+  result.strain       = symmetrize(gradient);
+  if (share > 0.)
     {
-      double projected = 0.;
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        projected += rows[i] * u(fields.nodes(active_cell)[i / dim] + i % dim);
-      const double correction = projected_shares[cell.body] / dim * (projected - trace(gradient));
+      const double correction = share / dim * (projected_divergence(point, u) - trace(gradient));
       for (unsigned int d = 0; d < dim; ++d)
         result.strain[d][d] += correction;
     }
-  result.stress = bodies[cell.body].material->stress(result.strain);
+  result.stress = body.material->stress(result.strain);
   if (dim == 2)
-    result.out_of_plane_stress = bodies[cell.body].material->out_of_plane_stress(result.strain);
+    result.out_of_plane_stress = body.material->out_of_plane_stress(result.strain);
   return result;
 }
 
 template <int dim>
 double
-Bulk<dim>::linear_strain_energy(const Vector &u) const
+Bulk<dim>::linear_strain_energy(const PointEvaluator<dim> &u) const
 {
   // As u K u/2 with the matrices of the cells, which whole cells share.
-  const unsigned int         n      = fields.basis.n_nodes;
-  const std::vector<double>  values = values_by_cell(fields, u);
-  dealii::FullMatrix<double> cut_cell;
+  const unsigned int                                                    n = fields.basis.n_nodes;
+  dealii::FullMatrix<double>                                            cut_cell;
   std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
   double                                                                energy = 0.;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
@@ -284,7 +270,7 @@ Bulk<dim>::linear_strain_energy(const Vector &u) const
       if (cell.is_cut || matrix.empty())
         cell_stiffness(a, matrix);
       // Without the translation of the cell, which has no energy but round-off.
-      const double                                     *nodal = &values[std::size_t(a) * n * dim];
+      const double                                     *nodal = u.nodal_values(a);
       std::array<double, dim * max_nodes_per_cell<dim>> relative;
       for (unsigned int i = 0; i < n * dim; ++i)
         relative[i] = nodal[i] - nodal[i % dim];
@@ -297,7 +283,7 @@ Bulk<dim>::linear_strain_energy(const Vector &u) const
 
 template <int dim>
 double
-Bulk<dim>::ghost_energy(const Vector &u)
+Bulk<dim>::ghost_energy(const PointEvaluator<dim> &u)
 {
   const unsigned int n      = fields.basis.n_nodes;
   double             energy = 0.;
@@ -311,8 +297,8 @@ Bulk<dim>::ghost_energy(const Vector &u)
             dealii::Vector<double> nodal(2 * n);
             for (unsigned int i = 0; i < n; ++i)
               {
-                nodal(i)     = u(fields.nodes(face.cell)[i] + d);
-                nodal(n + i) = u(fields.nodes(face.neighbor)[i] + d);
+                nodal(i)     = u.nodal_values(face.cell)[i * dim + d];
+                nodal(n + i) = u.nodal_values(face.neighbor)[i * dim + d];
               }
             energy += 0.5 * factor * jumps.matrix_norm_square(nodal);
           }

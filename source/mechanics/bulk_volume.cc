@@ -48,16 +48,16 @@ exchange_to_ghosts(const Fields<dim> &fields, std::vector<std::vector<double>> &
 /** int f_j d_i N_a projected: sum_m c_mj int psi_m d_i N_a, j after j. */
 template <int dim>
 std::vector<double>
-volume_rows_of(const LagrangeBasis<dim> &basis, const VolumeModes<dim> &modes,
-               const dealii::Point<dim> *points, const double *weights, const unsigned int n_points,
-               const double gradient_scale)
+integrate_volume_rows(const LagrangeBasis<dim> &basis, const VolumeModes<dim> &modes,
+                      const dealii::Point<dim> *points, const double *weights,
+                      const unsigned int n_points, const double gradient_scale)
 {
   const unsigned int  n_unknowns = basis.n_nodes * dim;
   std::vector<double> integrals(modes.n * n_unknowns, 0.);
   ShapeValues<dim>    shape;
   for (unsigned int q = 0; q < n_points; ++q)
     {
-      basis.evaluate(points[q], shape);
+      basis.evaluate_gradients(points[q], shape);
       const auto psi = modes(points[q]);
       for (unsigned int m = 0; m < modes.n; ++m)
         for (unsigned int i = 0; i < n_unknowns; ++i)
@@ -82,7 +82,7 @@ Bulk<dim>::set_up_volume_rows()
     return;
   const unsigned int degree = fields.basis.degree - 1;
   const auto        &whole  = quadrature.whole_cell;
-  whole_volume_rows         = volume_rows_of(
+  whole_volume_rows         = integrate_volume_rows(
             fields.basis,
             VolumeModes<dim>(whole.points.data(), whole.weights.data(), whole.points.size(), degree),
             whole.points.data(), whole.weights.data(), whole.points.size(), 1.);
@@ -91,10 +91,9 @@ Bulk<dim>::set_up_volume_rows()
     if (fields.cells()[a].is_cut && projected_shares[fields.cells()[a].body] > 0.)
       {
         const CellRule cell = rule(a);
-        rows[a]             = volume_rows_of(fields.basis,
-                                             VolumeModes<dim>(cell.points, cell.weights, cell.n_points, degree),
-                                             cell.points, cell.weights, cell.n_points,
-                                             1. / fields.grid.cells()[fields.cells()[a].grid_cell].size);
+        rows[a]             = integrate_volume_rows(
+                      fields.basis, VolumeModes<dim>(cell.points, cell.weights, cell.n_points, degree),
+                      cell.points, cell.weights, cell.n_points, 1. / fields.cell_size(a));
       }
   exchange_to_ghosts(fields, rows);
   for (const auto &row : rows)
@@ -105,19 +104,25 @@ Bulk<dim>::set_up_volume_rows()
 }
 
 template <int dim>
+std::pair<const double *, double>
+Bulk<dim>::volume_rows_of(const unsigned int active_cell) const
+{
+  if (fields.cells()[active_cell].is_cut)
+    return {&volume_rows[first_row[active_cell]], 1.};
+  return {whole_volume_rows.data(), 1. / fields.cell_size(active_cell)};
+}
+
+template <int dim>
 bool
 Bulk<dim>::projected_divergence(const unsigned int        active_cell,
                                 const dealii::Point<dim> &unit_point,
                                 std::vector<double>      &coefficients) const
 {
-  const ActiveCell &cell = fields.cells()[active_cell];
   coefficients.clear();
-  if (projected_shares[cell.body] == 0.)
+  if (projected_shares[fields.cells()[active_cell].body] == 0.)
     return false;
   const unsigned int n_unknowns = fields.basis.n_nodes * dim;
-  const double      *rows
-    = cell.is_cut ? &volume_rows[first_row[active_cell]] : whole_volume_rows.data();
-  const double scale = cell.is_cut ? 1. : 1. / fields.grid.cells()[cell.grid_cell].size;
+  const auto [rows, scale]      = volume_rows_of(active_cell);
   coefficients.assign(n_unknowns, 0.);
   for (unsigned int j = 0; j < VolumeModes<dim>::n_max; ++j)
     {
@@ -129,13 +134,30 @@ Bulk<dim>::projected_divergence(const unsigned int        active_cell,
 }
 
 template <int dim>
+double
+Bulk<dim>::projected_divergence(const PointInCell<dim> &point, const PointEvaluator<dim> &u) const
+{
+  const unsigned int n_unknowns = fields.basis.n_nodes * dim;
+  const auto [rows, scale]      = volume_rows_of(point.active_cell);
+  const double *nodal           = u.nodal_values(point.active_cell);
+  double        result          = 0.;
+  for (unsigned int j = 0; j < VolumeModes<dim>::n_max; ++j)
+    {
+      const double f = scale * function(j, point.unit_point);
+      for (unsigned int i = 0; i < n_unknowns; ++i)
+        result += f * rows[j * n_unknowns + i] * nodal[i];
+    }
+  return result;
+}
+
+template <int dim>
 void
 Bulk<dim>::add_projected_stiffness(const unsigned int active_cell, const double lambda,
                                    dealii::FullMatrix<double> &matrix) const
 {
-  const CellRule     points = rule(active_cell);
-  const unsigned int n      = fields.basis.n_nodes * dim;
-  const double       scale  = 1. / fields.grid.cells()[fields.cells()[active_cell].grid_cell].size;
+  const CellRule         points = rule(active_cell);
+  const unsigned int     n      = fields.basis.n_nodes * dim;
+  const double           scale  = 1. / fields.cell_size(active_cell);
   const VolumeModes<dim> psi(points.points, points.weights, points.n_points,
                              fields.basis.degree - 1);
   std::array<std::array<double, dim * max_nodes_per_cell<dim>>, VolumeModes<dim>::n_max> integrals
@@ -143,7 +165,7 @@ Bulk<dim>::add_projected_stiffness(const unsigned int active_cell, const double 
   ShapeValues<dim> shape;
   for (unsigned int q = 0; q < points.n_points; ++q)
     {
-      fields.basis.evaluate(points.points[q], shape);
+      fields.basis.evaluate_gradients(points.points[q], shape);
       const auto values = psi(points.points[q]);
       for (unsigned int m = 0; m < psi.n; ++m)
         for (unsigned int i = 0; i < n; ++i)
@@ -238,59 +260,63 @@ Bulk<dim>::set_up_increment_modes()
 
 template <int dim>
 typename Bulk<dim>::CellVolume
-Bulk<dim>::cell_volume(const unsigned int active_cell, const Vector &u,
-                       const bool with_derivatives) const
+Bulk<dim>::cell_volume(const unsigned int active_cell, const PointEvaluator<dim> &u) const
 {
-  CellVolume        result;
-  const ActiveCell &cell = fields.cells()[active_cell];
-  if (active_cell >= fields.n_owned_cells() || projected_shares[cell.body] == 0.)
+  const unsigned int body = fields.cells()[active_cell].body;
+  CellVolume         result;
+  if (active_cell >= fields.n_owned_cells() || projected_shares[body] == 0.)
     return result;
-  result.is_projected           = true;
-  const unsigned int     n      = fields.basis.n_nodes;
-  constexpr unsigned int n_max  = VolumeModes<dim>::n_max;
-  const CellRule         points = rule(active_cell);
-  const double           scale  = 1. / fields.grid.cells()[cell.grid_cell].size;
-  const double          *shape
-    = cell.is_cut ? &cut_gradients[first_gradient[active_cell]] : whole_gradients.data();
-  const DofIndex *nodes = fields.nodes(active_cell);
-  if (with_derivatives)
-    for (auto &derivative : result.derivatives)
-      derivative.assign(n * dim, 0.);
-  for (unsigned int q = 0; q < points.n_points; ++q, shape += n * dim)
+  result.is_projected          = true;
+  constexpr unsigned int n_max = VolumeModes<dim>::n_max;
+  const CellRule         cell  = rule(active_cell);
+  const double          *shape = unit_gradients(active_cell);
+  for (unsigned int q = 0; q < cell.n_points; ++q, shape += fields.basis.n_nodes * dim)
     {
-      dealii::Tensor<2, dim> F_D(dealii::unit_symmetric_tensor<dim>());
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            F_D[i][j] += scale * u(nodes[a] + i) * shape[a * dim + j];
-      const IncrementStart   &start_here = starts[first_point[active_cell] + q];
-      const VolumeChange<dim> change(bodies[cell.body].law->work(), F_D, start_here);
-      const double  weight = points.weights[q] * points.weight_scale / start_here.volume_ratio;
-      const double *psi    = &mode_values[(first_point[active_cell] + q) * n_max];
+      const std::size_t       point  = first_point[active_cell] + q;
+      const double            weight = cell.weights[q] * cell.weight_scale;
+      const VolumeChange<dim> change(bodies[body].law->work(), increment(active_cell, shape, u),
+                                     starts[point]);
       for (unsigned int m = 0; m < n_max; ++m)
+        result.values[m]
+          += weight / starts[point].volume_ratio * mode_values[point * n_max + m] * change.value;
+    }
+  return result;
+}
+
+template <int dim>
+typename Bulk<dim>::VolumeDerivatives
+Bulk<dim>::volume_derivatives(const unsigned int active_cell, const PointEvaluator<dim> &u) const
+{
+  constexpr unsigned int n_max  = VolumeModes<dim>::n_max;
+  const unsigned int     n      = fields.basis.n_nodes;
+  const unsigned int     body   = fields.cells()[active_cell].body;
+  const CellRule         cell   = rule(active_cell);
+  const double           scale  = 1. / fields.cell_size(active_cell);
+  const double          *shape  = unit_gradients(active_cell);
+  VolumeDerivatives      result = {};
+  for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
+    {
+      const std::size_t       point = first_point[active_cell] + q;
+      const VolumeChange<dim> change(bodies[body].law->work(), increment(active_cell, shape, u),
+                                     starts[point]);
+      const double weight = cell.weights[q] * cell.weight_scale / starts[point].volume_ratio;
+      for (unsigned int i = 0; i < n * dim; ++i)
         {
-          result.values[m] += weight * psi[m] * change.value;
-          for (unsigned int i = 0; with_derivatives && i < n * dim; ++i)
-            {
-              double sum = 0.;
-              for (unsigned int j = 0; j < dim; ++j)
-                sum += change.H[i % dim][j] * shape[i / dim * dim + j];
-              result.derivatives[m][i] += weight * psi[m] * change.scale * scale * sum;
-            }
+          double sum = 0.;
+          for (unsigned int j = 0; j < dim; ++j)
+            sum += change.H[i % dim][j] * shape[i / dim * dim + j];
+          for (unsigned int m = 0; m < n_max; ++m)
+            result[m][i] += weight * mode_values[point * n_max + m] * change.scale * scale * sum;
         }
     }
   return result;
 }
 
 template <int dim>
-std::vector<typename Bulk<dim>::CellVolume>
-Bulk<dim>::cell_volumes(const Vector &u) const
+const std::vector<typename Bulk<dim>::CellVolume> &
+Bulk<dim>::cell_volumes(const PointEvaluator<dim> &u) const
 {
-  std::vector<CellVolume> result;
-  result.reserve(fields.cells().size());
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    result.push_back(cell_volume(a, u, false));
-  return result;
+  return answers(u, false).volumes;
 }
 
 template <int dim>
@@ -321,26 +347,30 @@ Bulk<dim>::projected_increment(const unsigned int active_cell, const dealii::Poi
   return projected;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template void   Bulk<dim>::set_up_volume_rows();                                                \
-  template bool   Bulk<dim>::projected_divergence(const unsigned int, const dealii::Point<dim> &, \
-                                                  std::vector<double> &) const;                   \
-  template double Bulk<dim>::projected_lambda(const unsigned int) const;                          \
-  template void   Bulk<dim>::add_projected_stiffness(const unsigned int, const double,            \
-                                                     dealii::FullMatrix<double> &) const;         \
-  template double Bulk<dim>::ghost_stiffness(const GhostFace &) const;                            \
-  template void   Bulk<dim>::find_secant_ratios();                                                \
-  template typename Bulk<dim>::Vector     Bulk<dim>::nodal_secant_ratios() const;                 \
-  template void                           Bulk<dim>::set_up_increment_modes();                    \
-  template typename Bulk<dim>::CellVolume Bulk<dim>::cell_volume(                                 \
-    const unsigned int, const Vector &, const bool) const;                                        \
-  template std::vector<typename Bulk<dim>::CellVolume> Bulk<dim>::cell_volumes(const Vector &)    \
-    const;                                                                                        \
-  template VolumeChange<dim> Bulk<dim>::volume_change(                                            \
-    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                           \
-    const dealii::Tensor<2, dim> &, const IncrementStart &, dealii::Tensor<2, dim> &) const;      \
-  template dealii::Tensor<2, dim> Bulk<dim>::projected_increment(                                 \
-    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                           \
+#define SCREE_INSTANTIATE(dim)                                                                                \
+  template void   Bulk<dim>::set_up_volume_rows();                                                            \
+  template bool   Bulk<dim>::projected_divergence(const unsigned int, const dealii::Point<dim> &,             \
+                                                  std::vector<double> &) const;                               \
+  template double Bulk<dim>::projected_lambda(const unsigned int) const;                                      \
+  template void   Bulk<dim>::add_projected_stiffness(const unsigned int, const double,                        \
+                                                     dealii::FullMatrix<double> &) const;                     \
+  template double Bulk<dim>::ghost_stiffness(const GhostFace &) const;                                        \
+  template void   Bulk<dim>::find_secant_ratios();                                                            \
+  template typename Bulk<dim>::Vector     Bulk<dim>::nodal_secant_ratios() const;                             \
+  template void                           Bulk<dim>::set_up_increment_modes();                                \
+  template double                         Bulk<dim>::projected_divergence(const PointInCell<dim> &,           \
+                                                                          const PointEvaluator<dim> &) const; \
+  template typename Bulk<dim>::CellVolume Bulk<dim>::cell_volume(                                             \
+    const unsigned int, const PointEvaluator<dim> &) const;                                                   \
+  template typename Bulk<dim>::VolumeDerivatives Bulk<dim>::volume_derivatives(                               \
+    const unsigned int, const PointEvaluator<dim> &) const;                                                   \
+  template const std::vector<typename Bulk<dim>::CellVolume> &Bulk<dim>::cell_volumes(                        \
+    const PointEvaluator<dim> &) const;                                                                       \
+  template VolumeChange<dim> Bulk<dim>::volume_change(                                                        \
+    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                                       \
+    const dealii::Tensor<2, dim> &, const IncrementStart &, dealii::Tensor<2, dim> &) const;                  \
+  template dealii::Tensor<2, dim> Bulk<dim>::projected_increment(                                             \
+    const unsigned int, const dealii::Point<dim> &, const CellVolume &,                                       \
     const dealii::Tensor<2, dim> &, const IncrementStart &) const;
 
 SCREE_INSTANTIATE(2)

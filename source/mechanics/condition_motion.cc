@@ -49,8 +49,7 @@ nodes_of(const StrongSupports<dim> &supports)
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
 mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
-                   const StrongSupports<dim>                   &supports,
-                   const dealii::TrilinosWrappers::MPI::Vector &u)
+                   const StrongSupports<dim> &supports, const PointEvaluator<dim> &u)
 {
   const auto                   &regions = terms.regions();
   std::vector<WeightedSum<dim>> sums(regions.size() + supports.conditions().size());
@@ -62,7 +61,7 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
   const auto nodes = nodes_of(supports);
   for (unsigned int a = 0; a < fields.cells().size() && !nodes.empty(); ++a)
     {
-      const double face = std::pow(fields.grid.cells()[fields.cells()[a].grid_cell].size, dim - 1);
+      const double face = std::pow(fields.cell_size(a), dim - 1);
       for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
         {
           const DofIndex first = fields.nodes(a)[i];
@@ -71,7 +70,7 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
             continue;
           dealii::Tensor<1, dim> displacement = found->second.before;
           for (unsigned int d = 0; d < dim; ++d)
-            displacement[d] += u(first + d);
+            displacement[d] += u.nodal_values(a)[i * dim + d];
           for (const unsigned int support : found->second.supports)
             sums[regions.size() + support].add(displacement, face);
         }
@@ -94,7 +93,7 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
 #define SCREE_INSTANTIATE(dim)                                                    \
   template std::vector<dealii::Tensor<1, dim>> mean_displacements(                \
     const Fields<dim> &, const BoundaryTerms<dim> &, const StrongSupports<dim> &, \
-    const dealii::TrilinosWrappers::MPI::Vector &);
+    const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

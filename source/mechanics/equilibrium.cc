@@ -25,6 +25,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     , supports(fields, bodies, bulk.step_start())
     , rigid(fields, bodies, contact)
     , free(fields, bodies, supports, boundary_terms, contact, bulk.step_start() != nullptr)
+    , seen_by_bulk(fields)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
@@ -33,7 +34,6 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
         &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
-  strained.reinit(ghosted);
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
@@ -167,17 +167,21 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
     applied_forces = 0.;
   if (turns_infinitesimally())
     {
+      // Contact sees u, the bulk what strains it.
       const Vector v = free.strained(u, accepted_u, artificial_mass);
-      strained       = with_ghosts(v);
+      seen_by_bulk.gather(with_ghosts(v));
       stiffness.vmult(internal_forces, v);
     }
   else
-    stiffness.vmult(internal_forces, u);
+    {
+      seen_by_bulk.gather(ghosted);
+      stiffness.vmult(internal_forces, u);
+    }
   if (!is_linear_but_for_contact())
     {
       internal_forces += start_forces;
-      bulk.add_internal_forces(seen_by_bulk(), internal_forces);
-      boundary_terms.add_internal_forces(seen_by_bulk(), time, internal_forces);
+      bulk.add_internal_forces(seen_by_bulk, internal_forces);
+      boundary_terms.add_internal_forces(seen_by_bulk, time, internal_forces);
       internal_forces.compress(dealii::VectorOperation::add);
     }
   r = loads;
@@ -204,8 +208,8 @@ const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
   newton_matrix.copy_from(stiffness);
-  bulk.add_tangent(seen_by_bulk(), newton_matrix);
-  boundary_terms.add_tangent(seen_by_bulk(), time, newton_matrix);
+  bulk.add_tangent(seen_by_bulk, newton_matrix);
+  boundary_terms.add_tangent(seen_by_bulk, time, newton_matrix);
   contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
   add_artificial_mass(newton_matrix);
@@ -302,7 +306,7 @@ Equilibrium<dim>::force_scale() const
     if (const auto &region = boundary_terms.regions()[r];
         region.condition->prescribes_displacement())
       {
-        const auto tractions = boundary_terms.tractions(r, seen_by_bulk(), time);
+        const auto tractions = boundary_terms.tractions(r, seen_by_bulk, time);
         for (unsigned int q = 0; q < tractions.size(); ++q)
           held += std::pow(region.points[q].weight, 2) * tractions[q].norm_square();
       }
@@ -370,16 +374,23 @@ Equilibrium<dim>::with_ghosts(const Vector &u) const
 }
 
 template <int dim>
+PointEvaluator<dim>
+Equilibrium<dim>::at_points(const Vector &u) const
+{
+  return {fields, with_ghosts(u)};
+}
+
+template <int dim>
 std::vector<Resultant<dim>>
 Equilibrium<dim>::resultants(const Vector &u) const
 {
-  const Vector                ghosted = with_ghosts(u);
-  std::vector<Resultant<dim>> result  = boundary_terms.resultants(ghosted, time);
+  const PointEvaluator<dim>   field  = at_points(u);
+  std::vector<Resultant<dim>> result = boundary_terms.resultants(field, time);
   Vector                      forces(internal_forces);
   reactions(forces);
   for (const auto &resultant : supports.resultants(forces))
     result.push_back(resultant);
-  const auto displacements = mean_displacements(fields, boundary_terms, supports, ghosted);
+  const auto displacements = mean_displacements(fields, boundary_terms, supports, field);
   for (unsigned int i = 0; i < result.size(); ++i)
     result[i].displacement = displacements[i];
   return result;

@@ -208,13 +208,6 @@ Equilibrium<dim>::turns_infinitesimally() const
 }
 
 template <int dim>
-const typename Equilibrium<dim>::Vector &
-Equilibrium<dim>::seen_by_bulk() const
-{
-  return turns_infinitesimally() ? strained : ghosted;
-}
-
-template <int dim>
 void
 Equilibrium<dim>::advance(const Vector &du, Vector &u) const
 {
@@ -253,9 +246,6 @@ Equilibrium<dim>::turn(Vector &u) const
   template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                   \
   template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                      \
     Vector &, const ContactHistory<dim> &, const bool) const;
-
-template const Equilibrium<2>::Vector &Equilibrium<2>::seen_by_bulk() const;
-template const Equilibrium<3>::Vector &Equilibrium<3>::seen_by_bulk() const;
 
 template void Equilibrium<2>::add_artificial_mass(Matrix &) const;
 template void Equilibrium<3>::add_artificial_mass(Matrix &) const;

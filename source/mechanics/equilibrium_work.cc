@@ -32,7 +32,7 @@ Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &region) const
 
 template <int dim>
 double
-Equilibrium<dim>::work_of_pressures(const Vector &with_ghost_values) const
+Equilibrium<dim>::work_of_pressures(const PointEvaluator<dim> &u) const
 {
   double work = 0.;
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
@@ -40,11 +40,11 @@ Equilibrium<dim>::work_of_pressures(const Vector &with_ghost_values) const
       const auto &region = boundary_terms.regions()[i];
       if (!is_following_pressure(region))
         continue;
-      const auto tractions = boundary_terms.tractions(i, with_ghost_values, time);
+      const auto tractions = boundary_terms.tractions(i, u, time);
       for (unsigned int q = 0; q < tractions.size(); ++q)
         {
-          const auto motion = boundary_terms.displacement_at(region, q, with_ghost_values)
-                              - accepted_displacements[i][q];
+          const auto motion
+            = boundary_terms.displacement_at(region, q, u) - accepted_displacements[i][q];
           work
             += 0.5 * region.points[q].weight * (accepted_tractions[i][q] + tractions[q]) * motion;
         }
@@ -70,9 +70,9 @@ Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven
 
 template <int dim>
 double
-Equilibrium<dim>::work_of_step(const Vector &u, const Vector &with_ghost_values)
+Equilibrium<dim>::work_of_step(const Vector &u, const PointEvaluator<dim> &field)
 {
-  double work = work_of_multipliers(u) + work_of_pressures(with_ghost_values);
+  double work = work_of_multipliers(u) + work_of_pressures(field);
   Vector forces(internal_forces);
   reactions(forces);
   for (const auto &unknown : supports.unknowns())
@@ -85,7 +85,7 @@ Equilibrium<dim>::work_of_step(const Vector &u, const Vector &with_ghost_values)
   work += rigid.work(u, accepted_u, forces, accepted_reactions);
   accepted_reactions = forces;
   work += 0.5 * work_on_prescribed(accepted_driven);
-  remember_conditions(with_ghost_values);
+  remember_conditions(field);
   work += 0.5 * work_on_prescribed(accepted_driven);
   return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
 }
@@ -108,8 +108,8 @@ template <int dim>
 void
 Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
 {
-  const Vector with_ghost_values = with_ghosts(u);
-  Energies    &energies          = current_energies;
+  const PointEvaluator<dim> field    = at_points(u);
+  Energies                 &energies = current_energies;
   // Unknown by unknown with condensed hanging nodes: loads have no entries there.
   Vector motion(u);
   motion -= accepted_u;
@@ -117,8 +117,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
     energies.transfer -= released_work(motion, old_history);
   unbalanced.reset();
   accepted_dead_loads += dead_loads;
-  energies.external_work
-    += 0.5 * (accepted_dead_loads * motion) + work_of_step(u, with_ghost_values);
+  energies.external_work += 0.5 * (accepted_dead_loads * motion) + work_of_step(u, field);
   accepted_dead_loads = dead_loads;
   accepted_u          = u;
   accepted_time       = time;
@@ -143,7 +142,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   dissipated   = dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
   not_negative = dealii::Utilities::MPI::sum(not_negative, fields.grid.communicator());
   energies.dissipation += dissipated < 0. ? not_negative : dissipated;
-  energies.plastic += store_energies(with_ghost_values);
+  energies.plastic += store_energies(field);
 }
 
 template <int dim>
@@ -156,7 +155,7 @@ Equilibrium<dim>::count_overlap()
 
 template <int dim>
 double
-Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
+Equilibrium<dim>::store_energies(const PointEvaluator<dim> &u)
 {
   double stored = 0.;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
@@ -167,16 +166,15 @@ Equilibrium<dim>::store_energies(const Vector &with_ghost_values)
                    + response.tau.norm_square() / contact.eps_t(i));
     }
   current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
-  const auto of_bulk        = bulk.work(with_ghost_values);
+  const auto of_bulk        = bulk.work(u);
   current_energies.strain   = of_bulk.energy;
-  current_energies.boundary = boundary_terms.energy(with_ghost_values, time);
+  current_energies.boundary = boundary_terms.energy(u, time);
   if (is_linear_but_for_contact())
-    current_energies.ghost_penalty = bulk.ghost_energy(with_ghost_values);
+    current_energies.ghost_penalty = bulk.ghost_energy(u);
   else
     {
-      Vector total(with_ghost_values);
-      total = with_ghosts(bulk.step_start()->displacement());
-      total += with_ghost_values;
+      PointEvaluator<dim> total = bulk.step_start()->displacement_field();
+      total += u;
       current_energies.ghost_penalty = bulk.ghost_energy(total);
     }
   return of_bulk.dissipation;
@@ -239,7 +237,7 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
            * (history.tau[i].norm_square() - contact.responses()[i].tau.norm_square())
            / contact.eps_t(i);
   cut = dealii::Utilities::MPI::sum(cut, fields.grid.communicator());
-  cut += store_energies(with_ghosts(accepted_u));
+  cut += store_energies(at_points(accepted_u));
   current_energies.transfer += current_energies.stored() + cut - energies.stored();
 }
 
@@ -270,7 +268,7 @@ Equilibrium<dim>::take_as_accepted(const double time, const Vector &u,
     if (fields.owned().is_element(fields.multiplier(i)))
       accepted_prescribed(fields.multiplier(i)) = loads(fields.multiplier(i));
   accepted_prescribed.compress(dealii::VectorOperation::insert);
-  remember_conditions(with_ghosts(accepted_u));
+  remember_conditions(at_points(accepted_u));
 }
 
 template <int dim>
@@ -292,7 +290,7 @@ Equilibrium<dim>::driving_forces() const
 
 template <int dim>
 void
-Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
+Equilibrium<dim>::remember_conditions(const PointEvaluator<dim> &u)
 {
   accepted_driven.clear();
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
@@ -301,7 +299,7 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
       const bool  is_pressure = is_following_pressure(region);
       if (!is_pressure && !region.condition->prescribes_displacement())
         continue;
-      const auto tractions = boundary_terms.tractions(i, with_ghost_values, time);
+      const auto tractions = boundary_terms.tractions(i, u, time);
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto &point = region.points[q];
@@ -309,9 +307,8 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
             accepted_driven.push_back({i, point.reference_position, point.weight * tractions[q]});
           else
             {
-              accepted_tractions[i][q] = tractions[q];
-              accepted_displacements[i][q]
-                = boundary_terms.displacement_at(region, q, with_ghost_values);
+              accepted_tractions[i][q]     = tractions[q];
+              accepted_displacements[i][q] = boundary_terms.displacement_at(region, q, u);
             }
         }
     }
@@ -320,15 +317,15 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
 #define SCREE_INSTANTIATE(dim)                                                                            \
   template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                  \
   template bool   Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &) const;             \
-  template double Equilibrium<dim>::work_of_pressures(const Vector &) const;                              \
+  template double Equilibrium<dim>::work_of_pressures(const PointEvaluator<dim> &) const;                 \
   template double Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &)             \
     const;                                                                                                \
-  template double Equilibrium<dim>::work_of_step(const Vector &, const Vector &);                         \
+  template double Equilibrium<dim>::work_of_step(const Vector &, const PointEvaluator<dim> &);            \
   template double Equilibrium<dim>::released_work(const Vector &, const ContactHistory<dim> &)            \
     const;                                                                                                \
   template void               Equilibrium<dim>::accept(const Vector &, const ContactHistory<dim> &);      \
   template void               Equilibrium<dim>::count_overlap();                                          \
-  template double             Equilibrium<dim>::store_energies(const Vector &);                           \
+  template double             Equilibrium<dim>::store_energies(const PointEvaluator<dim> &);              \
   template unsigned int       Equilibrium<dim>::n_rigid_unknowns() const;                                 \
   template void               Equilibrium<dim>::start_step(const double, const Vector &,                  \
                                                            const ContactHistory<dim> &, const Energies &, \
@@ -338,7 +335,7 @@ Equilibrium<dim>::remember_conditions(const Vector &with_ghost_values)
                                                        const ContactHistory<dim> &, const Energies &);    \
   template void               Equilibrium<dim>::take_as_accepted(const double, const Vector &,            \
                                                                  const ContactHistory<dim> &, Vector &);  \
-  template void               Equilibrium<dim>::remember_conditions(const Vector &);
+  template void               Equilibrium<dim>::remember_conditions(const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

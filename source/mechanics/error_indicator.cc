@@ -49,7 +49,7 @@ class Recovery
 public:
   using Strain = SymmetricTensor<2, dim>;
 
-  Recovery(const Fields<dim> &fields, const Bulk<dim> &bulk, const TrilinosWrappers::MPI::Vector &u)
+  Recovery(const Fields<dim> &fields, const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
       : fields(fields)
       , k(fields.basis.degree)
   {
@@ -60,7 +60,7 @@ public:
   /** e* at a point of an owned active cell. */
   Strain strain(const unsigned int active_cell, const Point<dim> &unit_point) const
   {
-    const Point<dim> point = position(active_cell, unit_point);
+    const Point<dim> point = fields.position(active_cell, unit_point);
     Strain           sum;
     double           sum_of_weights = 0.;
     for (unsigned int v = 0; v < n_vertices; ++v)
@@ -90,12 +90,6 @@ private:
     std::vector<Strain>       coefficients;
   };
 
-  Point<dim> position(const unsigned int active_cell, const Point<dim> &unit_point) const
-  {
-    const GridCell<dim> &cell = fields.grid.cells()[fields.cells()[active_cell].grid_cell];
-    return cell.lower + cell.size * Tensor<1, dim>(unit_point);
-  }
-
   DofIndex vertex_node(const unsigned int active_cell, const unsigned int vertex) const
   {
     unsigned int node = 0, stride = k;
@@ -121,15 +115,15 @@ private:
               Point<dim> corner;
               for (unsigned int d = 0; d < dim; ++d)
                 corner[d] = (v >> d) & 1u;
-              patches.back().centre = position(a, corner);
+              patches.back().centre = fields.position(a, corner);
             }
-          const double size   = fields.grid.cells()[fields.cells()[a].grid_cell].size;
+          const double size   = fields.cell_size(a);
           patches[index].size = std::max(patches[index].size, size);
           patches[index].cells.push_back(a);
         }
   }
 
-  void fit(const Bulk<dim> &bulk, const TrilinosWrappers::MPI::Vector &u)
+  void fit(const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
   {
     const QGauss<dim>   gauss(k);
     const unsigned int  n_points = gauss.size(), n = n_monomials<dim>(k);
@@ -147,8 +141,8 @@ private:
         for (const unsigned int a : patch.cells)
           for (unsigned int q = 0; q < n_points; ++q)
             {
-              const auto values
-                = monomials<dim>((position(a, gauss.point(q)) - patch.centre) / patch.size, k);
+              const auto values = monomials<dim>(
+                (fields.position(a, gauss.point(q)) - patch.centre) / patch.size, k);
               for (unsigned int i = 0; i < n; ++i)
                 {
                   right_side[i] += values[i] * strains[a * n_points + q];
@@ -178,10 +172,11 @@ template <int dim>
 std::vector<double>
 recovery_errors(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
                 const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
-                const TrilinosWrappers::MPI::Vector &u)
+                const TrilinosWrappers::MPI::Vector &ghosted)
 {
-  const Recovery<dim> recovery(fields, bulk, u);
-  std::vector<double> errors(fields.grid.n_owned_cells(), 0.);
+  const PointEvaluator<dim> u(fields, ghosted);
+  const Recovery<dim>       recovery(fields, bulk, u);
+  std::vector<double>       errors(fields.grid.n_owned_cells(), 0.);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell = fields.cells()[a];

@@ -13,24 +13,6 @@ points_per_direction(const MovingGeometryParameters &parameters, const unsigned 
 {
   return parameters.points_per_direction > 0 ? parameters.points_per_direction : degree + 1;
 }
-
-/** Displacement and its gradient at a point of a cell with the nodal values `nodal`. */
-template <int dim>
-std::pair<dealii::Tensor<1, dim>, dealii::Tensor<2, dim>>
-value_and_gradient(const Fields<dim> &fields, const PointInCell<dim> &point, const double *nodal,
-                   ShapeValues<dim> &shape)
-{
-  std::pair<dealii::Tensor<1, dim>, dealii::Tensor<2, dim>> result;
-  const double scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
-  fields.basis.evaluate(point.unit_point, shape);
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        result.first[d] += nodal[a * dim + d] * shape.value[a];
-        result.second[d] += nodal[a * dim + d] * scale * shape.gradient[a];
-      }
-  return result;
-}
 } // namespace
 
 template <int dim>
@@ -73,22 +55,20 @@ distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &par
 template <int dim>
 MaterialPoints<dim>
 moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>> &bodies,
-             const Fields<dim> &fields, const Bulk<dim> &bulk, const typename Bulk<dim>::Vector &u)
+             const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
 {
   MaterialPoints<dim>                 points     = old_points;
   const StepStart<dim>               &step_start = *bulk.step_start();
-  const std::vector<double>           values     = values_by_cell(fields, u);
-  const auto                          volumes    = bulk.cell_volumes(u);
-  const unsigned int                  n          = fields.basis.n_nodes * dim;
+  const auto                         &volumes    = bulk.cell_volumes(u);
   std::vector<dealii::Tensor<1, dim>> increments(points.size());
   std::vector<dealii::Tensor<2, dim>> gradients(points.size());
-  ShapeValues<dim>                    shape;
   for (std::size_t p = 0; p < points.size(); ++p)
     {
       const PointInCell<dim> &location = step_start.material_points()[p];
       const auto              cell     = location.active_cell;
-      std::tie(increments[p], gradients[p])
-        = value_and_gradient(fields, location, &values[std::size_t(cell) * n], shape);
+      const auto              here     = u.evaluate(location);
+      increments[p]                    = here.value;
+      gradients[p]                     = here.gradient;
 
       const auto             &law     = *bodies[points.body[p]].law;
       const PointHistory<dim> history = step_start.history_of_material_point(p);
@@ -114,15 +94,15 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template MaterialPoints<dim> seed_points(                                                      \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,             \
-    const CutQuadrature<dim> &, const MovingGeometryParameters &);                               \
-  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &,         \
-                                  MaterialPoints<dim> &);                                        \
-  template MaterialPoints<dim> moved_points(const MaterialPoints<dim> &,                         \
-                                            const std::vector<Body<dim>> &, const Fields<dim> &, \
-                                            const Bulk<dim> &, const Bulk<dim>::Vector &);
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template MaterialPoints<dim> seed_points(                                                    \
+    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,           \
+    const CutQuadrature<dim> &, const MovingGeometryParameters &);                             \
+  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &,       \
+                                  MaterialPoints<dim> &);                                      \
+  template MaterialPoints<dim> moved_points(const MaterialPoints<dim> &,                       \
+                                            const std::vector<Body<dim>> &, const Bulk<dim> &, \
+                                            const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

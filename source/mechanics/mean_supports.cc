@@ -116,7 +116,8 @@ MeanSupports<dim>::couplings() const
 
 template <int dim>
 Resultant<dim>
-MeanSupports<dim>::resultant_of_multipliers(const unsigned int index, const Vector &u) const
+MeanSupports<dim>::resultant_of_multipliers(const unsigned int         index,
+                                            const PointEvaluator<dim> &u) const
 {
   const auto    &region = this->region(index);
   Resultant<dim> resultant;
@@ -127,7 +128,7 @@ MeanSupports<dim>::resultant_of_multipliers(const unsigned int index, const Vect
       if (!this->fields.owned().is_element(index))
         continue;
       const unsigned int component = region.condition->components[m];
-      const double       density   = -u(index) * multiplier_scale(region);
+      const double       density   = -u.trailing_value(index) * multiplier_scale(region);
       if (component < dim)
         {
           dealii::Tensor<1, dim> force;

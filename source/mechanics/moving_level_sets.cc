@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/bodies/boundary_foot.h>
+#include <scree/discretization/point_evaluator.h>
 #include <scree/level_set/extension.h>
 #include <scree/level_set/fast_marching.h>
 #include <scree/level_set/pieces.h>
@@ -61,7 +62,7 @@ cells_of_bodies(const Fields<dim> &fields, const unsigned int n_bodies)
 /** The largest |du| at a node of the cells of each body, on all processes. */
 template <int dim>
 std::vector<double>
-largest_increments(const Fields<dim> &fields, const Vector &du,
+largest_increments(const Fields<dim> &fields, const PointEvaluator<dim> &du,
                    const std::vector<std::vector<unsigned int>> &cells)
 {
   std::vector<double> largest(cells.size(), 0.);
@@ -71,7 +72,7 @@ largest_increments(const Fields<dim> &fields, const Vector &du,
         {
           double square = 0.;
           for (unsigned int d = 0; d < dim; ++d)
-            square += std::pow(du(fields.nodes(a)[i] + d), 2);
+            square += std::pow(du.nodal_values(a)[i * dim + d], 2);
           largest[b] = std::max(largest[b], std::sqrt(square));
         }
   dealii::Utilities::MPI::max(largest, fields.grid.communicator(), largest);
@@ -83,7 +84,8 @@ template <int dim>
 class IncrementInCells
 {
 public:
-  IncrementInCells(const Fields<dim> &fields, const Vector &du, const Lattice<dim> &lattice)
+  IncrementInCells(const Fields<dim> &fields, const PointEvaluator<dim> &du,
+                   const Lattice<dim> &lattice)
       : fields(fields)
       , du(du)
       , lattice(lattice)
@@ -101,7 +103,7 @@ private:
   const std::vector<std::array<double, 3>> &table(const unsigned int n);
 
   const Fields<dim>                              &fields;
-  const Vector                                   &du;
+  const PointEvaluator<dim>                      &du;
   const Lattice<dim>                             &lattice;
   std::vector<std::vector<std::array<double, 3>>> tables; // by n
 };
@@ -142,7 +144,7 @@ IncrementInCells<dim>::add_cell(const unsigned int cell, NodalVectors<dim> &valu
   std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>> nodal;
   for (unsigned int i = 0; i < basis.n_nodes; ++i)
     for (unsigned int d = 0; d < dim; ++d)
-      nodal[i][d] = du(fields.nodes(cell)[i] + d);
+      nodal[i][d] = du.nodal_values(cell)[i * dim + d];
 
   Index<dim> corner, first, end;
   for (unsigned int d = 0; d < dim; ++d)
@@ -434,9 +436,10 @@ require_movable(const std::vector<Body<dim>> &bodies)
 
 template <int dim>
 std::vector<BodyMotion<dim>>
-move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const Vector &du,
-                const Vector &displacement, const LevelSetMotion &options)
+move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const Vector &ghosted_du,
+                const Vector &ghosted_displacement, const LevelSetMotion &options)
 {
+  const PointEvaluator<dim> du(fields, ghosted_du), displacement(fields, ghosted_displacement);
   require_movable(bodies);
   const auto                   cells   = cells_of_bodies(fields, bodies.size());
   const std::vector<double>    largest = largest_increments(fields, du, cells);

@@ -43,11 +43,29 @@ template <int dim>
 double
 PrescribedDisplacements<dim>::beta(const BoundaryRegion<dim> &region, const unsigned int q) const
 {
-  const ActiveCell &cell = fields.cells()[region.points[q].active_cell];
-  const double      k    = fields.basis.degree;
+  const double k = fields.basis.degree;
   return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
          * bodies[region.body].material->p_wave_modulus()
-         / fields.grid.cells()[cell.grid_cell].size;
+         / fields.cell_size(region.points[q].active_cell);
+}
+
+template <int dim>
+double
+PrescribedDisplacements<dim>::prescribed_value(const unsigned int index, const unsigned int q,
+                                               const unsigned int k, const double time) const
+{
+  auto &[time_of_values, values] = prescribed_values;
+  if (time_of_values != time)
+    {
+      values.assign(setting.regions.size(), {});
+      for (const unsigned int r : own_regions)
+        for (const auto &point : this->region(r).points)
+          for (unsigned int i = 0; i < this->region(r).condition->components.size(); ++i)
+            values[r].push_back(
+              this->region(r).condition->value(i, point.reference_position, time));
+      time_of_values = time;
+    }
+  return values[index][q * this->region(index).condition->components.size() + k];
 }
 
 template <int dim>
@@ -59,9 +77,8 @@ PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>          
 {
   const auto  &material = *bodies[region.body].material;
   const double lambda = material.lame_lambda(), mu = material.shear_modulus();
-  const double scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
-  const auto  &n     = point.normal;
-  fields.basis.evaluate(point.unit_point, shape);
+  const auto  &n = point.normal;
+  fields.evaluate_basis(point.active_cell, point.unit_point, shape);
   vectors.resize(fields.basis.n_nodes * dim);
   std::vector<double> divergence;
   const double        projected
@@ -70,7 +87,7 @@ PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>          
         : 0.;
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     {
-      const dealii::Tensor<1, dim> g  = scale * shape.gradient[a];
+      const dealii::Tensor<1, dim> g  = shape.gradient[a];
       const double                 gn = g * n;
       for (unsigned int i = 0; i < dim; ++i)
         {
@@ -145,8 +162,7 @@ PrescribedDisplacements<dim>::add_loads(Vector &loads, const double time, const 
         for (unsigned int k = 0; k < condition.components.size(); ++k)
           {
             const unsigned int c = condition.components[k];
-            const double       value
-              = condition.value(k, point.reference_position, time) - point.start_displacement[c];
+            const double value   = prescribed_value(r, q, k, time) - point.start_displacement[c];
             for (unsigned int a = 0; a < n; ++a)
               cell_load(a * dim + c) += point.weight * beta(region, q) * shape.value[a] * value;
             for (unsigned int j = 0; j < n * dim; ++j)
@@ -171,26 +187,25 @@ PrescribedDisplacements<dim>::is_symmetric() const
 
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-PrescribedDisplacements<dim>::tractions(const unsigned int index, const Vector &u,
+PrescribedDisplacements<dim>::tractions(const unsigned int index, const PointEvaluator<dim> &u,
                                         const double time) const
 {
-  const auto                         &region    = this->region(index);
-  const auto                         &condition = *region.condition;
-  std::vector<dealii::Tensor<1, dim>> result(region.points.size());
+  const auto                               &region = this->region(index);
+  std::vector<dealii::Tensor<1, dim>>       result(region.points.size());
+  const std::vector<dealii::Tensor<1, dim>> of_stress
+    = is_nitsche(region) ? fluxes(index, u)
+                         : std::vector<dealii::Tensor<1, dim>>(region.points.size());
   for (unsigned int q = 0; q < region.points.size(); ++q)
     {
-      const auto                  &point        = region.points[q];
-      const dealii::Tensor<1, dim> displacement = displacement_at(fields, point, u);
-      dealii::Tensor<1, dim>       flux;
-      if (is_nitsche(region))
-        flux = stress_vector(index, q, u);
-      for (unsigned int k = 0; k < condition.components.size(); ++k)
+      const auto                  &point = region.points[q];
+      const dealii::Tensor<1, dim> displacement
+        = point.start_displacement + u.value(point.in_cell());
+      for (unsigned int k = 0; k < region.condition->components.size(); ++k)
         {
-          const unsigned int c = condition.components[k];
+          const unsigned int c = region.condition->components[k];
           result[q][c]
-            = flux[c]
-              - beta(region, q)
-                  * (displacement[c] - condition.value(k, point.reference_position, time));
+            = of_stress[q][c]
+              - beta(region, q) * (displacement[c] - prescribed_value(index, q, k, time));
         }
       result[q] += moment_traction(index, q, u, time);
     }
@@ -199,7 +214,7 @@ PrescribedDisplacements<dim>::tractions(const unsigned int index, const Vector &
 
 template <int dim>
 double
-PrescribedDisplacements<dim>::energy(const Vector &u, const double time) const
+PrescribedDisplacements<dim>::energy(const PointEvaluator<dim> &u, const double time) const
 {
   double sum = 0.;
   for (const unsigned int r : own_regions)
@@ -209,15 +224,16 @@ PrescribedDisplacements<dim>::energy(const Vector &u, const double time) const
       const auto  t         = tractions(r, u, time);
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
-          const auto                  &point        = region.points[q];
-          const dealii::Tensor<1, dim> displacement = displacement_at(fields, point, u);
-          const dealii::Tensor<1, dim> of_moments   = moment_traction(r, q, u, time);
+          const auto                  &point = region.points[q];
+          const dealii::Tensor<1, dim> displacement
+            = point.start_displacement + u.value(point.in_cell());
+          const dealii::Tensor<1, dim> of_moments = moment_traction(r, q, u, time);
           for (unsigned int k = 0; k < condition.components.size(); ++k)
             {
               // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e, and half the
               // work of the moments
               const unsigned int c = condition.components[k];
-              const double e = displacement[c] - condition.value(k, point.reference_position, time);
+              const double       e = displacement[c] - prescribed_value(r, q, k, time);
               sum -= point.weight
                      * ((t[q][c] - 0.5 * of_moments[c]) * e + 0.5 * beta(region, q) * e * e);
             }

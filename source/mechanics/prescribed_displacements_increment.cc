@@ -1,19 +1,10 @@
 #include <scree/mechanics/prescribed_displacements.h>
 
+#include <utility>
+
 // On a moving geometry: Nitsche's method with the stress vector of the law.
 namespace scree
 {
-template <int dim>
-struct PrescribedDisplacements<dim>::PointIncrement
-{
-  dealii::Tensor<2, dim> increment; //!< F_D
-  dealii::Tensor<2, dim> piola;
-  dealii::Tensor<4, dim> tangent;
-  ShapeValues<dim>       shape; //!< gradients physical
-  /** What the projected volume change of the cell adds to the derivative of P by its unknowns. */
-  std::vector<dealii::Tensor<2, dim>> by_volume;
-};
-
 template <int dim>
 void
 PrescribedDisplacements<dim>::find_starts()
@@ -33,151 +24,207 @@ PrescribedDisplacements<dim>::find_starts()
 }
 
 template <int dim>
-typename PrescribedDisplacements<dim>::PointIncrement
-PrescribedDisplacements<dim>::increment_at(const unsigned int region, const unsigned int q,
-                                           const Vector &u, const bool with_tangent) const
+const typename PrescribedDisplacements<dim>::Answers &
+PrescribedDisplacements<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
 {
-  const auto    &point = this->region(region).points[q];
-  const double   scale = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
-  PointIncrement result;
-  fields.basis.evaluate(point.unit_point, result.shape);
-  result.increment      = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
-  const DofIndex *nodes = fields.nodes(point.active_cell);
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-    {
-      result.shape.gradient[a] *= scale;
-      for (unsigned int d = 0; d < dim; ++d)
-        result.increment[d] += u(nodes[a] + d) * result.shape.gradient[a];
-    }
-  const auto             volume    = bulk.cell_volume(point.active_cell, u, with_tangent);
-  dealii::Tensor<2, dim> projected = result.increment;
-  VolumeChange<dim>      change;
-  if (volume.is_projected)
-    change = bulk.volume_change(point.active_cell, point.unit_point, volume, result.increment,
-                                starts[region][q], projected);
-  IncrementResponse<dim> response;
-  bodies[this->region(region).body].law->respond(
-    dealii::ArrayView<const dealii::Tensor<2, dim>>(&projected, 1),
-    dealii::ArrayView<const IncrementStart>(&starts[region][q], 1),
-    dealii::ArrayView<IncrementResponse<dim>>(&response, 1),
-    dealii::ArrayView<dealii::Tensor<4, dim>>(&result.tangent, with_tangent ? 1 : 0));
-  result.piola = response.piola;
-  if (!volume.is_projected)
-    return result;
-  const auto stress = change.stress(response.piola);
-  result.piola      = stress.scaled;
-  if (with_tangent)
-    {
-      const auto tangent = change.tangent(stress, result.tangent);
-      const auto psi     = bulk.volume_modes(point.active_cell)(point.unit_point);
-      result.tangent     = tangent.scaled;
-      result.by_volume.resize(fields.basis.n_nodes * dim);
-      for (unsigned int m = 0; m < psi.size(); ++m)
-        for (unsigned int i = 0; i < result.by_volume.size(); ++i)
-          result.by_volume[i]
-            += change.slope * psi[m] * volume.derivatives[m][i] * tangent.scaled_by_volume;
-    }
-  return result;
-}
-
-template <int dim>
-dealii::Tensor<1, dim>
-PrescribedDisplacements<dim>::stress_vector(const unsigned int index, const unsigned int q,
-                                            const Vector &u) const
-{
-  const auto &point = this->region(index).points[q];
-  if (start)
-    return increment_at(index, q, u, false).piola * point.normal;
-  ShapeValues<dim>                    shape;
-  std::vector<dealii::Tensor<1, dim>> stress;
-  stress_vectors(this->region(index), point, shape, stress);
-  dealii::Tensor<1, dim> flux;
-  const DofIndex        *nodes = fields.nodes(point.active_cell);
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-    for (unsigned int d = 0; d < dim; ++d)
-      flux += u(nodes[a] + d) * stress[a * dim + d];
-  return flux;
+  if (last.u && *last.u == u && (last.has_tangents || !with_tangents))
+    return last;
+  last.u            = u;
+  last.has_tangents = with_tangents;
+  last.of_points.resize(setting.regions.size());
+  for (const unsigned int r : own_regions)
+    if (is_nitsche(this->region(r)))
+      ask(r);
+  return last;
 }
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::add_internal_forces(const Vector &u, const double /*time*/,
-                                                  Vector       &forces) const
+PrescribedDisplacements<dim>::ask(const unsigned int index) const
+{
+  const auto                         &region  = this->region(index);
+  const unsigned int                  n       = region.points.size();
+  const auto                         &volumes = bulk.cell_volumes(*last.u);
+  std::vector<dealii::Tensor<2, dim>> increments(n);
+  std::vector<IncrementResponse<dim>> responses(n);
+  std::vector<dealii::Tensor<4, dim>> tangents(last.has_tangents ? n : 0);
+  std::vector<VolumeChange<dim>>      changes(n);
+  const dealii::Tensor<2, dim>        identity(dealii::unit_symmetric_tensor<dim>());
+  const auto                          is_projected
+    = [&](const unsigned int q) { return volumes[region.points[q].active_cell].is_projected; };
+  for (unsigned int q = 0; q < n; ++q)
+    {
+      const auto &[active_cell, unit_point] = region.points[q].in_cell();
+      const dealii::Tensor<2, dim> F_D = identity + last.u->gradient({active_cell, unit_point});
+      increments[q]                    = F_D;
+      if (is_projected(q))
+        changes[q] = bulk.volume_change(active_cell, unit_point, volumes[active_cell], F_D,
+                                        starts[index][q], increments[q]);
+    }
+  bodies[region.body].law->respond(dealii::make_array_view(increments.begin(), increments.end()),
+                                   dealii::ArrayView<const IncrementStart>(starts[index].data(), n),
+                                   dealii::make_array_view(responses.begin(), responses.end()),
+                                   dealii::make_array_view(tangents.begin(), tangents.end()));
+  auto &of_points = last.of_points[index];
+  of_points.resize(n);
+  for (unsigned int q = 0; q < n; ++q)
+    {
+      PointAnswer &answer = of_points[q];
+      answer.piola        = responses[q].piola;
+      if (last.has_tangents)
+        answer.tangent = tangents[q];
+      if (!is_projected(q))
+        continue;
+      const auto stress = changes[q].stress(responses[q].piola);
+      answer.piola      = stress.scaled;
+      if (!last.has_tangents)
+        continue;
+      const auto tangent = changes[q].tangent(stress, tangents[q]);
+      answer.tangent     = tangent.scaled;
+      answer.by_volume   = changes[q].slope * tangent.scaled_by_volume;
+    }
+}
+
+template <int dim>
+dealii::Tensor<1, dim>
+PrescribedDisplacements<dim>::linear_stress_vector(const BoundaryRegion<dim> &region,
+                                                   const BoundaryPoint<dim>  &point,
+                                                   const PointEvaluator<dim> &u) const
+{
+  const auto                  &material  = *bodies[region.body].material;
+  const double                 projected = bulk.projected_lambda(region.body);
+  const dealii::Tensor<2, dim> gradient  = u.gradient(point.in_cell());
+  double                       pressure  = (material.lame_lambda() - projected) * trace(gradient);
+  if (projected > 0.)
+    pressure += projected * bulk.projected_divergence(point.in_cell(), u);
+  return pressure * point.normal
+         + material.shear_modulus() * (gradient + transpose(gradient)) * point.normal;
+}
+
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+PrescribedDisplacements<dim>::fluxes(const unsigned int index, const PointEvaluator<dim> &u) const
+{
+  const auto                         &region = this->region(index);
+  std::vector<dealii::Tensor<1, dim>> result;
+  result.reserve(region.points.size());
+  const auto *of_points = start ? &answers(u, false).of_points[index] : nullptr;
+  for (unsigned int q = 0; q < region.points.size(); ++q)
+    result.push_back(of_points ? (*of_points)[q].piola * region.points[q].normal
+                               : linear_stress_vector(region, region.points[q], u));
+  return result;
+}
+
+template <int dim>
+void
+PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &u,
+                                                  const double /*time*/, Vector &forces) const
 {
   if (!start)
     return;
-  const unsigned int     n = fields.basis.n_nodes;
+  const auto            &of_points = answers(u, std::exchange(expects_tangent, false)).of_points;
+  const unsigned int     n         = fields.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
+  std::vector<DofIndex>  unknowns;
+
+  std::array<double, max_nodes_per_cell<dim>> shape;
   for (const unsigned int r : own_regions)
     {
-      const auto &region    = this->region(r);
-      const auto &condition = *region.condition;
+      const auto &region = this->region(r);
       if (!is_nitsche(region))
         continue;
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto                  &point = region.points[q];
-          const PointIncrement         here  = increment_at(r, q, u, false);
-          dealii::Tensor<1, dim>       t;
-          const dealii::Tensor<1, dim> flux = here.piola * point.normal;
-          for (const unsigned int c : condition.components)
-            t[c] = -flux[c];
-          for (unsigned int a = 0; a < n; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              cell_forces(a * dim + d) = point.weight * here.shape.value[a] * t[d];
-          fields.hanging_constraints().distribute_local_to_global(cell_forces,
-                                                                  this->unknowns(point), forces);
+          const dealii::Tensor<1, dim> flux  = of_points[r][q].piola * point.normal;
+          fields.basis.evaluate_values(point.unit_point, shape.data());
+          cell_forces = 0.;
+          for (const unsigned int c : region.condition->components)
+            for (unsigned int a = 0; a < n; ++a)
+              cell_forces(a * dim + c) = -point.weight * shape[a] * flux[c];
+          this->set_unknowns(point, unknowns);
+          fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
         }
     }
 }
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::add_tangent(const Vector &u, const double /*time*/,
-                                          Matrix       &matrix) const
+PrescribedDisplacements<dim>::set_point_tangent(const BoundaryRegion<dim>  &region,
+                                                const BoundaryPoint<dim>   &point,
+                                                const PointAnswer          &answer,
+                                                const VolumeDerivatives    *volume,
+                                                dealii::FullMatrix<double> &block) const
+{
+  const unsigned int n = fields.basis.n_nodes;
+  ShapeValues<dim>   shape;
+  fields.evaluate_basis(point.active_cell, point.unit_point, shape);
+  // dt[i][k][L]: derivative of t_i with respect to F_D,kL
+  dealii::Tensor<3, dim> dt;
+  for (const unsigned int c : region.condition->components)
+    for (unsigned int j = 0; j < dim; ++j)
+      dt[c] -= answer.tangent[c][j] * point.normal[j];
+  this->set_tangent(point, shape, dt, block);
+  if (volume == nullptr)
+    return;
+  const dealii::Tensor<1, dim> by_volume = answer.by_volume * point.normal;
+  const auto                   psi       = bulk.volume_modes(point.active_cell)(point.unit_point);
+  for (unsigned int j = 0; j < n * dim; ++j)
+    {
+      double value = 0.; // derivative of the projected volume change
+      for (unsigned int m = 0; m < psi.size(); ++m)
+        value += psi[m] * (*volume)[m][j];
+      for (const unsigned int c : region.condition->components)
+        for (unsigned int a = 0; a < n; ++a)
+          block(a * dim + c, j) -= point.weight * shape.value[a] * value * by_volume[c];
+    }
+}
+
+template <int dim>
+void
+PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const double /*time*/,
+                                          Matrix                    &matrix) const
 {
   if (!start)
     return;
-  const unsigned int         n = fields.basis.n_nodes;
+  const auto &of_points              = answers(u, true).of_points;
+  const auto &volumes                = bulk.cell_volumes(u);
+  expects_tangent                    = true;
+  const unsigned int         n       = fields.basis.n_nodes;
+  unsigned int               of_cell = dealii::numbers::invalid_unsigned_int;
+  VolumeDerivatives          volume;
   dealii::FullMatrix<double> block(n * dim, n * dim);
+  std::vector<DofIndex>      unknowns;
   for (const unsigned int r : own_regions)
     {
-      const auto &region    = this->region(r);
-      const auto &condition = *region.condition;
+      const auto &region = this->region(r);
       if (!is_nitsche(region))
         continue;
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
-          const auto          &point = region.points[q];
-          const PointIncrement here  = increment_at(r, q, u, true);
-          // dt[i][k][L]: derivative of t_i with respect to F_D,kL
-          dealii::Tensor<3, dim> dt;
-          for (const unsigned int c : condition.components)
-            for (unsigned int j = 0; j < dim; ++j)
-              dt[c] -= here.tangent[c][j] * point.normal[j];
-          this->set_tangent(point, here.shape, dt, block);
-          if (!here.by_volume.empty())
-            for (const unsigned int c : condition.components)
-              for (unsigned int j = 0; j < n * dim; ++j)
-                {
-                  const double change = (here.by_volume[j] * point.normal)[c];
-                  for (unsigned int a = 0; a < n; ++a)
-                    block(a * dim + c, j) -= point.weight * here.shape.value[a] * change;
-                }
-          fields.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
-                                                                  matrix);
+          const auto &point        = region.points[q];
+          const bool  is_projected = volumes[point.active_cell].is_projected;
+          if (is_projected && of_cell != point.active_cell)
+            {
+              of_cell = point.active_cell;
+              volume  = bulk.volume_derivatives(of_cell, u);
+            }
+          set_point_tangent(region, point, of_points[r][q], is_projected ? &volume : nullptr,
+                            block);
+          this->set_unknowns(point, unknowns);
+          fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
         }
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template void                   PrescribedDisplacements<dim>::find_starts();                    \
-  template dealii::Tensor<1, dim> PrescribedDisplacements<dim>::stress_vector(                    \
-    const unsigned int, const unsigned int, const Vector &) const;                                \
-  template void PrescribedDisplacements<dim>::add_internal_forces(const Vector &, const double,   \
-                                                                  Vector &) const;                \
-  template void PrescribedDisplacements<dim>::add_tangent(const Vector &, const double, Matrix &) \
-    const;
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template void                                PrescribedDisplacements<dim>::find_starts();      \
+  template std::vector<dealii::Tensor<1, dim>> PrescribedDisplacements<dim>::fluxes(             \
+    const unsigned int, const PointEvaluator<dim> &) const;                                      \
+  template void PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &,   \
+                                                                  const double, Vector &) const; \
+  template void PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &,           \
+                                                          const double, Matrix &) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

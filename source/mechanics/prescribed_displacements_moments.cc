@@ -125,9 +125,15 @@ PrescribedDisplacements<dim>::find_moments()
             continue;
           std::fill(moments_of_point[r].begin() + begin, moments_of_point[r].begin() + end,
                     normal_moments.size());
-          normal_moments.push_back({r, begin, end, beta(region, begin) / share * (1. - share),
+          normal_moments.push_back({r,
+                                    begin,
+                                    end,
+                                    beta(region, begin) / share * (1. - share),
                                     VolumeModes<dim>(points.data(), weights.data(), points.size(),
-                                                     fields.basis.degree - 1)});
+                                                     fields.basis.degree - 1),
+                                    {}});
+          for (unsigned int m = 0; m < normal_moments.back().modes.n; ++m)
+            normal_moments.back().rows.push_back(moment_row(normal_moments.back(), m));
         }
     }
 }
@@ -166,8 +172,7 @@ PrescribedDisplacements<dim>::prescribed_moment(const NormalMoments &moments, co
         {
           const unsigned int c = region.condition->components[k];
           sum += weight * point.normal[c]
-                 * (region.condition->value(k, point.reference_position, time)
-                    - point.start_displacement[c]);
+                 * (prescribed_value(moments.region, q, k, time) - point.start_displacement[c]);
         }
     }
   return sum;
@@ -185,7 +190,7 @@ PrescribedDisplacements<dim>::add_moments_to_matrix(
       block = 0.;
       for (unsigned int m = 0; m < moments.modes.n; ++m)
         {
-          const auto row = moment_row(moments, m);
+          const auto &row = moments.rows[m];
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = 0; j < n; ++j)
               block(i, j) += moments.stiffness * row[i] * row[j];
@@ -207,7 +212,7 @@ PrescribedDisplacements<dim>::add_moment_loads(Vector &loads, const double time)
       load = 0.;
       for (unsigned int m = 0; m < moments.modes.n; ++m)
         {
-          const auto   row   = moment_row(moments, m);
+          const auto  &row   = moments.rows[m];
           const double value = moments.stiffness * prescribed_moment(moments, m, time);
           for (unsigned int i = 0; i < n; ++i)
             load(i) += value * row[i];
@@ -221,7 +226,7 @@ PrescribedDisplacements<dim>::add_moment_loads(Vector &loads, const double time)
 template <int dim>
 dealii::Tensor<1, dim>
 PrescribedDisplacements<dim>::moment_traction(const unsigned int index, const unsigned int q,
-                                              const Vector &u, const double time) const
+                                              const PointEvaluator<dim> &u, const double time) const
 {
   dealii::Tensor<1, dim> traction;
   const int              of_point = moments_of_point[index][q];
@@ -230,15 +235,15 @@ PrescribedDisplacements<dim>::moment_traction(const unsigned int index, const un
   const NormalMoments &moments = normal_moments[of_point];
   const auto          &region  = this->region(index);
   const auto          &point   = region.points[q];
-  const DofIndex      *nodes   = fields.nodes(point.active_cell);
+  const double        *nodal   = u.nodal_values(point.active_cell);
   const auto           psi     = moments.modes(point.unit_point);
   double               density = 0.;
   for (unsigned int m = 0; m < moments.modes.n; ++m)
     {
-      const auto row    = moment_row(moments, m);
-      double     moment = -prescribed_moment(moments, m, time);
+      const auto &row    = moments.rows[m];
+      double      moment = -prescribed_moment(moments, m, time);
       for (unsigned int i = 0; i < row.size(); ++i)
-        moment += row[i] * u(nodes[i / dim] + i % dim);
+        moment += row[i] * nodal[i];
       density += moments.stiffness * psi[m] * moment;
     }
   for (const unsigned int c : region.condition->components)
@@ -257,7 +262,7 @@ PrescribedDisplacements<dim>::moment_traction(const unsigned int index, const un
       dealii::TrilinosWrappers::SparseMatrix &) const;                                        \
   template void PrescribedDisplacements<dim>::add_moment_loads(Vector &, const double) const; \
   template dealii::Tensor<1, dim> PrescribedDisplacements<dim>::moment_traction(              \
-    const unsigned int, const unsigned int, const Vector &, const double) const;
+    const unsigned int, const unsigned int, const PointEvaluator<dim> &, const double) const;
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

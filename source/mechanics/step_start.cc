@@ -132,14 +132,15 @@ StepStart<dim>::StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &q
     , own_points(points)
     , parameters(parameters)
     , locations(locate_points(fields, points))
+    , displacements(fields)
     , cloud(points.n_internal())
 {
   fitted             = fit_displacement(fields, points, locations);
   Vector distributed = fitted;
   fields.hanging_constraints().distribute(distributed);
   Vector ghosted(fields.owned(), fields.relevant(), fields.grid.communicator());
-  ghosted       = distributed;
-  displacements = values_by_cell(fields, ghosted);
+  ghosted = distributed;
+  displacements.gather(ghosted);
   if (points.n_internal() > 0
       || parameters.deformation == DeformationTransfer::moving_least_squares)
     {
@@ -274,12 +275,9 @@ StepStart<dim>::weights(const std::vector<PointInCell<dim>> &targets) const
   Targets<dim> places;
   for (const auto &target : targets)
     {
-      const ActiveCell    &cell     = fields.cells()[target.active_cell];
-      const GridCell<dim> &geometry = fields.grid.cells()[cell.grid_cell];
-      places.position.push_back(geometry.lower
-                                + geometry.size * dealii::Tensor<1, dim>(target.unit_point));
-      places.body.push_back(cell.body);
-      places.cell_size.push_back(geometry.size);
+      places.position.push_back(fields.position(target.active_cell, target.unit_point));
+      places.body.push_back(fields.cells()[target.active_cell].body);
+      places.cell_size.push_back(fields.cell_size(target.active_cell));
     }
   PointWeights result = moving_least_squares->weights(places);
   report.n_targets += result.report.n_targets;
@@ -296,32 +294,16 @@ template <int dim>
 typename StepStart<dim>::Deformation
 StepStart<dim>::deformation(const PointInCell<dim> &point) const
 {
-  const ActiveCell &cell  = fields.cells()[point.active_cell];
-  const double      scale = 1. / fields.grid.cells()[cell.grid_cell].size;
-  ShapeValues<dim>  shape;
-  fields.basis.evaluate(point.unit_point, shape);
-  Deformation            result;
-  dealii::Tensor<2, dim> inverse(dealii::unit_symmetric_tensor<dim>());
-  const double *nodal = &displacements[std::size_t(point.active_cell) * fields.basis.n_nodes * dim];
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double value = nodal[a * dim + d];
-        result.displacement[d] += value * shape.value[a];
-        inverse[d] -= value * scale * shape.gradient[a];
-      }
-  result.gradient = dealii::invert(inverse);
-  return result;
+  const auto [u_n, gradient] = displacements.evaluate(point);
+  return {u_n,
+          dealii::invert(dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) - gradient)};
 }
 
 template <int dim>
 dealii::Point<dim>
 StepStart<dim>::reference_position(const PointInCell<dim> &point) const
 {
-  const auto &geometry = fields.grid.cells()[fields.cells()[point.active_cell].grid_cell];
-  return dealii::Point<dim>(geometry.lower
-                            + geometry.size * dealii::Tensor<1, dim>(point.unit_point)
-                            - deformation(point).displacement);
+  return fields.position(point.active_cell, point.unit_point) - displacements.value(point);
 }
 
 template <int dim>
@@ -331,11 +313,8 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
 {
   if (determinant(F) > 0.)
     return;
-  const ActiveCell        &cell     = fields.cells()[point.active_cell];
-  const auto              &geometry = fields.grid.cells()[cell.grid_cell];
-  const dealii::Point<dim> x
-    = geometry.lower + geometry.size * dealii::Tensor<1, dim>(point.unit_point);
-  throw UserError("Bodies/" + bodies[cell.body].name,
+  const dealii::Point<dim> x = fields.position(point.active_cell, point.unit_point);
+  throw UserError("Bodies/" + bodies[fields.cells()[point.active_cell].body].name,
                   "its displacement at the start of the step turns the material at "
                     + short_place(x) + " inside out: det F = " + short_number(determinant(F)),
                   "use more steps or finer cells; where a prescribed displacement ends at a sharp "

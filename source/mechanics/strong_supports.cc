@@ -84,8 +84,7 @@ StrongSupports<dim>::select(const Fields<dim> &fields, const unsigned int a,
   for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
     {
       const dealii::Point<dim> unit_node = fields.basis.node(i);
-      const dealii::Point<dim> position
-        = cell.lower + cell.size * dealii::Tensor<1, dim>(unit_node);
+      const dealii::Point<dim> position  = fields.position(a, unit_node);
       const dealii::Point<dim> reference_position
         = start ? start->reference_position({a, unit_node}) : position;
       if (!is_prescribed_at(condition, cell, unit_node, reference_position))

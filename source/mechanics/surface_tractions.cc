@@ -14,31 +14,23 @@ SurfaceTractions<dim>::is_following(const unsigned int index) const
 
 template <int dim>
 std::vector<SurfaceTraction<dim>>
-SurfaceTractions<dim>::evaluate(const unsigned int index, const Vector *u, const double time) const
+SurfaceTractions<dim>::evaluate(const unsigned int index, const PointEvaluator<dim> *u,
+                                const double time) const
 {
-  const auto                           &fields   = this->fields;
   const auto                           &region   = this->region(index);
   const dealii::SymmetricTensor<2, dim> identity = dealii::unit_symmetric_tensor<dim>();
-  ShapeValues<dim>                      shape;
   std::vector<SurfacePoint<dim>>        points;
+  points.reserve(region.points.size());
   for (const auto &point : region.points)
     {
       points.push_back({point.reference_position, point.normal, point.area_ratio,
                         point.start_displacement, identity});
       if (u == nullptr)
         continue;
-      const double scale
-        = 1. / fields.grid.cells()[fields.cells()[point.active_cell].grid_cell].size;
-      const DofIndex *nodes = fields.nodes(point.active_cell);
-      fields.basis.evaluate(point.unit_point, shape);
-      for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double value = (*u)(nodes[a] + d);
-            points.back().displacement[d] += value * shape.value[a];
-            if (this->setting.start() != nullptr)
-              points.back().increment[d] += value * (scale * shape.gradient[a]);
-          }
+      const auto here = u->evaluate(point.in_cell());
+      points.back().displacement += here.value;
+      if (this->setting.start() != nullptr)
+        points.back().increment += here.gradient;
     }
   std::vector<SurfaceTraction<dim>> result(points.size());
   region.condition->kind().law.evaluate(
@@ -55,18 +47,19 @@ SurfaceTractions<dim>::add_integral(const unsigned int index, const double facto
 {
   const unsigned int     n      = this->fields.basis.n_nodes;
   const auto            &region = this->region(index);
-  ShapeValues<dim>       shape;
   dealii::Vector<double> cell_forces(n * dim);
+  std::vector<DofIndex>  unknowns;
+
+  std::array<double, max_nodes_per_cell<dim>> shape;
   for (unsigned int q = 0; q < region.points.size(); ++q)
     {
       const auto &point = region.points[q];
-      this->fields.basis.evaluate(point.unit_point, shape);
+      this->fields.basis.evaluate_values(point.unit_point, shape.data());
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          cell_forces(a * dim + d)
-            = factor * point.weight * shape.value[a] * tractions[q].traction[d];
-      this->fields.hanging_constraints().distribute_local_to_global(cell_forces,
-                                                                    this->unknowns(point), forces);
+          cell_forces(a * dim + d) = factor * point.weight * shape[a] * tractions[q].traction[d];
+      this->set_unknowns(point, unknowns);
+      this->fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
     }
 }
 
@@ -86,7 +79,7 @@ SurfaceTractions<dim>::add_to_matrix(Matrix &matrix) const
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto &point = region.points[q];
-          this->fields.basis.evaluate(point.unit_point, shape);
+          this->fields.basis.evaluate_gradients(point.unit_point, shape);
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int b = 0; b < n; ++b)
               for (unsigned int c = 0; c < dim; ++c)
@@ -112,7 +105,8 @@ SurfaceTractions<dim>::add_loads(Vector &loads, const double time, const bool de
 
 template <int dim>
 void
-SurfaceTractions<dim>::add_internal_forces(const Vector &u, const double time, Vector &forces) const
+SurfaceTractions<dim>::add_internal_forces(const PointEvaluator<dim> &u, const double time,
+                                           Vector &forces) const
 {
   for (const unsigned int r : this->own_regions)
     if (is_following(r))
@@ -121,11 +115,13 @@ SurfaceTractions<dim>::add_internal_forces(const Vector &u, const double time, V
 
 template <int dim>
 void
-SurfaceTractions<dim>::add_tangent(const Vector &u, const double time, Matrix &matrix) const
+SurfaceTractions<dim>::add_tangent(const PointEvaluator<dim> &u, const double time,
+                                   Matrix &matrix) const
 {
   const unsigned int         n = this->fields.basis.n_nodes;
   ShapeValues<dim>           shape;
   dealii::FullMatrix<double> block(n * dim, n * dim);
+  std::vector<DofIndex>      unknowns;
   for (const unsigned int r : this->own_regions)
     {
       if (!is_following(r))
@@ -133,15 +129,11 @@ SurfaceTractions<dim>::add_tangent(const Vector &u, const double time, Matrix &m
       const auto tractions = evaluate(r, &u, time);
       for (unsigned int q = 0; q < tractions.size(); ++q)
         {
-          const auto  &point = this->region(r).points[q];
-          const auto  &cell  = this->fields.cells()[point.active_cell];
-          const double scale = 1. / this->fields.grid.cells()[cell.grid_cell].size;
-          this->fields.basis.evaluate(point.unit_point, shape);
-          for (unsigned int a = 0; a < n; ++a)
-            shape.gradient[a] *= scale;
+          const auto &point = this->region(r).points[q];
+          this->fields.evaluate_basis(point.active_cell, point.unit_point, shape);
           this->set_tangent(point, shape, -tractions[q].by_increment, block);
-          this->fields.hanging_constraints().distribute_local_to_global(
-            block, this->unknowns(point), matrix);
+          this->set_unknowns(point, unknowns);
+          this->fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
         }
     }
 }
@@ -156,7 +148,8 @@ SurfaceTractions<dim>::is_symmetric() const
 
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-SurfaceTractions<dim>::tractions(const unsigned int index, const Vector &u, const double time) const
+SurfaceTractions<dim>::tractions(const unsigned int index, const PointEvaluator<dim> &u,
+                                 const double time) const
 {
   std::vector<dealii::Tensor<1, dim>> result;
   for (const auto &point : evaluate(index, &u, time))
@@ -166,7 +159,7 @@ SurfaceTractions<dim>::tractions(const unsigned int index, const Vector &u, cons
 
 template <int dim>
 double
-SurfaceTractions<dim>::energy(const Vector &u, const double time) const
+SurfaceTractions<dim>::energy(const PointEvaluator<dim> &u, const double time) const
 {
   double sum = 0.;
   for (const unsigned int r : this->own_regions)

@@ -348,23 +348,23 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
                        const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  Patches<dim> output;
+  const PointEvaluator<dim> field(fields, u);
+  Patches<dim>              output;
   output.names   = field_names<dim>();
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
 
   for (const Piece &piece : body_pieces)
     {
-      const ActiveCell               &cell     = fields.cells()[piece.active_cell];
-      const auto                     &geometry = fields.grid.cells()[cell.grid_cell];
+      const ActiveCell               &cell = fields.cells()[piece.active_cell];
       std::vector<dealii::Point<dim>> vertices;
       std::vector<BulkSample<dim>>    samples;
       for (const auto &vertex : piece.vertices)
         {
-          vertices.push_back(geometry.lower + geometry.size * dealii::Tensor<1, dim>(vertex));
-          samples.push_back(bulk.sample(piece.active_cell, vertex, u));
+          vertices.push_back(fields.position(piece.active_cell, vertex));
+          samples.push_back(bulk.sample(piece.active_cell, vertex, field));
           if (const auto *start = bulk.step_start())
             vertices.back() += samples.back().displacement
-                               - start->deformation({piece.active_cell, vertex}).displacement;
+                               - start->displacement_field().value({piece.active_cell, vertex});
         }
       output.patches.push_back(
         make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));

@@ -17,46 +17,30 @@ struct Moments
 };
 
 template <int dim>
-dealii::Tensor<1, dim>
-value_at(const Fields<dim> &fields, const PointInCell<dim> &point,
-         const dealii::TrilinosWrappers::MPI::Vector &u, std::vector<double> &shape)
-{
-  fields.basis.evaluate_values(point.unit_point, shape.data());
-  dealii::Tensor<1, dim> value;
-  for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-    for (unsigned int c = 0; c < dim; ++c)
-      value[c] += shape[i] * u(fields.nodes(point.active_cell)[i] + c);
-  return value;
-}
-
-template <int dim>
 std::vector<Moments<dim>>
 moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
         const CutQuadrature<dim> &quadrature, const StepStart<dim> *start,
-        const dealii::TrilinosWrappers::MPI::Vector &u)
+        const PointEvaluator<dim> &u)
 {
   std::vector<Moments<dim>> result(bodies.size());
-  std::vector<double>       shape(fields.basis.n_nodes);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const ActiveCell  &cell     = fields.cells()[a];
-      const auto        &geometry = fields.grid.cells()[cell.grid_cell];
-      const auto        &whole    = quadrature.whole_cell;
-      const auto        &cut      = quadrature.bulk;
-      Moments<dim>      &sum      = result[cell.body];
-      const double       scale    = cell.is_cut ? 1. : std::pow(geometry.size, dim);
-      const unsigned int first    = cell.is_cut ? cut.begin[a] : 0;
-      const unsigned int last     = cell.is_cut ? cut.begin[a + 1] : whole.points.size();
+      const ActiveCell  &cell  = fields.cells()[a];
+      const auto        &whole = quadrature.whole_cell;
+      const auto        &cut   = quadrature.bulk;
+      Moments<dim>      &sum   = result[cell.body];
+      const double       scale = cell.is_cut ? 1. : std::pow(fields.cell_size(a), dim);
+      const unsigned int first = cell.is_cut ? cut.begin[a] : 0;
+      const unsigned int last  = cell.is_cut ? cut.begin[a + 1] : whole.points.size();
       for (unsigned int q = first; q < last; ++q)
         {
           const PointInCell<dim> point  = {a, (cell.is_cut ? cut.points : whole.points)[q]};
           const double           weight = scale * (cell.is_cut ? cut.weights : whole.weights)[q];
-          const auto             step   = value_at(fields, point, u, shape);
+          const auto             step   = u.value(point);
           const auto             before
-            = start ? start->deformation(point).displacement : dealii::Tensor<1, dim>();
+            = start ? start->displacement_field().value(point) : dealii::Tensor<1, dim>();
           const dealii::Tensor<1, dim> x
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(point.unit_point)
-              - bodies[cell.body].box.center();
+            = fields.position(a, point.unit_point) - bodies[cell.body].box.center();
           sum.volume += weight;
           sum.now += weight * (x + step);
           sum.displacement += weight * (before + step);
@@ -83,7 +67,7 @@ mean_motions(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
              const dealii::TrilinosWrappers::MPI::Vector &u)
 {
   std::vector<MeanMotion<dim>> result(bodies.size());
-  const auto                   sums = moments(fields, bodies, quadrature, start, u);
+  const auto sums = moments(fields, bodies, quadrature, start, PointEvaluator<dim>(fields, u));
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
       {

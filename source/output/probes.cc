@@ -42,11 +42,13 @@ sample_columns()
 template <int dim>
 std::vector<std::vector<double>>
 sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<dim> &fields,
-       const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u, const bool must_exist)
+       const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &ghosted,
+       const bool must_exist)
 {
-  const MPI_Comm     communicator = fields.grid.communicator();
-  const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const unsigned int n_columns    = sample_columns<dim>().size();
+  const PointEvaluator<dim> u(fields, ghosted);
+  const MPI_Comm            communicator = fields.grid.communicator();
+  const unsigned int        rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int        n_columns    = sample_columns<dim>().size();
   // A row ends with whether it was found.
   std::vector<double> values(probe.n_points * (n_columns + 1), 0.);
   const auto          place = [&](const unsigned int i) {

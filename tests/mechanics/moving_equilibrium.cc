@@ -4,13 +4,11 @@
 
 #include <scree/base/exceptions.h>
 #include <scree/mechanics/boundary_coverage.h>
-#include <scree/points/seeding.h>
 
-#include <functional>
 #include <iostream>
 #include <random>
 
-#include "equilibrium_model.h"
+#include "started_step.h"
 
 namespace scree
 {
@@ -18,93 +16,6 @@ namespace
 {
 using namespace dealii;
 using Vector = TrilinosWrappers::MPI::Vector;
-
-/** x - X as a function of the present position x. */
-template <int dim>
-using Displacement = std::function<Tensor<1, dim>(const Point<dim> &)>;
-
-/** Bodies at the start of a step, which material points brought there by a displacement. */
-template <int dim>
-struct StartedStep
-{
-  StartedStep(const std::string &text, const std::string &law,
-              const Displacement<dim> &displacement, const double plastic_strain = 0.)
-      : input(text)
-      , cut(input.bodies)
-      , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , points(moved(law, displacement, plastic_strain))
-      , start(*cut.fields, quadrature, cut.bodies, points, parameters)
-      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
-      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                input.contact.shift * cut.grid.finest_size())
-      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
-  {
-  }
-
-  MaterialPoints<dim> moved(const std::string &law, const Displacement<dim> &displacement,
-                            const double plastic_strain)
-  {
-    MaterialParameters material;
-    material.law     = law;
-    material.young   = 1000.;
-    material.poisson = 0.3;
-    if (is_plastic(law))
-      {
-        material.yield_stress      = 20.;
-        material.hardening_modulus = 50.;
-      }
-    const std::shared_ptr<const IncrementLaw<dim>> shared = make_increment_law<dim>(material);
-    for (auto &body : cut.bodies)
-      if (!body.is_rigid())
-        body.law = shared;
-    const std::vector<double> density(cut.bodies.size(), 1.);
-    const unsigned int        n_internal
-      = StepStart<dim>::needs_internal(cut.bodies) ? StepStart<dim>::n_internal : 0;
-    MaterialPoints<dim> result
-      = PointSeeding<dim>(*cut.fields, *cut.level_set_nodes, cut.bodies, quadrature, density)
-          .on_sub_grid(cut.fields->basis.degree + 1, n_internal);
-    for (std::size_t p = 0; p < result.size(); ++p)
-      {
-        result.reference_position[p] = result.position[p] - displacement(result.position[p]);
-        if (n_internal > 0)
-          result.internal[p * n_internal + 6] = plastic_strain;
-      }
-    return result;
-  }
-
-  std::vector<ContactPair> contact_pairs() const
-  {
-    std::vector<ContactPair> pairs;
-    for (const auto &[a, b] : cut.pairs)
-      pairs.push_back({a, b, "pair", input.contact.law_of("a", "b")});
-    return pairs;
-  }
-
-  /** Random increments of the given size at the nodes. */
-  Vector random(const double size, const unsigned int seed) const
-  {
-    Vector                                 u(cut.fields->owned(), MPI_COMM_WORLD);
-    std::mt19937                           engine(seed);
-    std::uniform_real_distribution<double> number(-size, size);
-    for (const DofIndex index : cut.fields->owned())
-      u(index) = cut.fields->hanging_constraints().is_constrained(index) ? 0. : number(engine);
-    u.compress(VectorOperation::insert);
-    equilibrium.strong_supports().set_zero(u);
-    return u;
-  }
-
-  EquilibriumInput<dim>    input;
-  CutBodies<dim>           cut;
-  MovingGeometryParameters parameters;
-  CutQuadrature<dim>       quadrature;
-  MaterialPoints<dim>      points;
-  StepStart<dim>           start;
-  Bulk<dim>                bulk;
-  BoundaryTerms<dim>       boundary_terms;
-  ContactPoints<dim>       contact;
-  Equilibrium<dim>         equilibrium;
-};
 
 /** A disc held by Nitsche's method on its left, under pressure on its right, on springs below. */
 std::string
@@ -231,14 +142,14 @@ TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
             }
         }
       field.compress(VectorOperation::insert);
-      const Vector ghosted(plain.equilibrium.with_ghosts(field));
-      auto         points = plain.points;
-      const auto   cells  = locate_points(*plain.cut.fields, points);
+      const auto ghosted = plain.equilibrium.at_points(field);
+      auto       points  = plain.points;
+      const auto cells   = locate_points(*plain.cut.fields, points);
       for (std::size_t p = 0; p < points.size(); ++p)
         points.reference_position[p]
           -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;
-      const Vector fit = fit_displacement(*plain.cut.fields, points, cells);
-      const Vector fit_ghosted(plain.equilibrium.with_ghosts(fit));
+      const Vector fit         = fit_displacement(*plain.cut.fields, points, cells);
+      const auto   fit_ghosted = plain.equilibrium.at_points(fit);
       double       error = 0., norm = 0.;
       for (std::size_t p = 0; p < points.size(); ++p)
         {
@@ -312,7 +223,7 @@ TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
   for (const std::string law : {"neo-Hookean", "Hencky", "Saint Venant-Kirchhoff", "J2"})
     {
       StartedStep<2> step(loaded_disc(2), law, rotation);
-      const Vector   zero(step.equilibrium.with_ghosts(zero_displacement(*step.cut.fields)));
+      const auto     zero    = step.equilibrium.at_points(zero_displacement(*step.cut.fields));
       double         largest = 0.;
       for (const auto &point : step.start.material_points())
         largest = std::max(

@@ -66,7 +66,7 @@ collectives_of_tables(const unsigned int n)
   model.contact.evaluate(u, model.state.contact);
   n_collectives = 0;
   EXPECT_EQ(summarise_contact(model.contact, MPI_COMM_WORLD).size(), model.contact.pairs().size());
-  EXPECT_EQ(model.boundary_terms.resultants(u, 0.).size(), 2 * n * n);
+  EXPECT_EQ(model.boundary_terms.resultants({*model.cut.fields, u}, 0.).size(), 2 * n * n);
   EXPECT_EQ(
     mean_motions<2>(*model.cut.fields, model.cut.bodies, model.quadrature, nullptr, u).size(),
     n * n);

@@ -27,15 +27,24 @@ struct ActiveCell
 /** A linear combination of nodes: sum_i weight_i u(node_i), node given by its first unknown. */
 using NodeStencil = std::vector<std::pair<DofIndex, double>>;
 
-/** Unknowns of a list of nodes, component by component. */
+/** Sets the unknowns of a list of nodes, component by component. */
+template <int dim>
+void
+set_unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes,
+                      std::vector<DofIndex> &indices)
+{
+  indices.resize(n_nodes * dim);
+  for (unsigned int i = 0; i < n_nodes; ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+      indices[i * dim + d] = nodes[i] + d;
+}
+
 template <int dim>
 std::vector<DofIndex>
 unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
 {
-  std::vector<DofIndex> indices(n_nodes * dim);
-  for (unsigned int i = 0; i < n_nodes; ++i)
-    for (unsigned int d = 0; d < dim; ++d)
-      indices[i * dim + d] = nodes[i] + d;
+  std::vector<DofIndex> indices;
+  set_unknowns_of_nodes<dim>(nodes, n_nodes, indices);
   return indices;
 }
 
@@ -77,6 +86,24 @@ public:
   /** The active cell of `body` in or nearest to the cell that contains `point`, -1 if there is
    * none. */
   int nearest_active_cell(const dealii::Point<dim> &point, const unsigned int body) const;
+
+  /** Edge of an active cell [L]. */
+  double cell_size(const unsigned int active_cell) const
+  {
+    return grid.cells()[active_cells[active_cell].grid_cell].size;
+  }
+
+  /** Where a point in unit coordinates of an active cell is. */
+  dealii::Point<dim> position(const unsigned int        active_cell,
+                              const dealii::Point<dim> &unit_point) const
+  {
+    const GridCell<dim> &cell = grid.cells()[active_cells[active_cell].grid_cell];
+    return cell.lower + cell.size * dealii::Tensor<1, dim>(unit_point);
+  }
+
+  /** Values of the basis functions of an active cell and their gradients in space [1/L]. */
+  void evaluate_basis(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                      ShapeValues<dim> &shape) const;
 
   /** Unit coordinates of a point in an active cell. */
   dealii::Point<dim> unit_point(const unsigned int        active_cell,
@@ -167,23 +194,6 @@ private:
   dealii::IndexSet                   owned_dofs, relevant_dofs;
   dealii::AffineConstraints<double>  constraints;
 };
-
-/**
- * Nodal values of a ghosted vector, component by component of the nodes of one active cell after
- * the other: entry (cell n_nodes + node) dim + component.
- */
-template <int dim, typename Vector>
-std::vector<double>
-values_by_cell(const Fields<dim> &fields, const Vector &u)
-{
-  std::vector<double> result;
-  result.reserve(fields.cells().size() * fields.basis.n_nodes * dim);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        result.push_back(u(fields.nodes(a)[i] + d));
-  return result;
-}
 
 /** The unknowns of a rigid body in a ghosted vector. */
 template <int dim, typename Vector>

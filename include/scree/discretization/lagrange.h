@@ -66,6 +66,29 @@ public:
       }
   }
 
+  /** Values and gradients. */
+  void evaluate_gradients(const dealii::Point<dim> &point, ShapeValues<dim> &shape) const
+  {
+    double f[2][dim][3], unused[3]; // derivative, direction, node
+    for (unsigned int d = 0; d < dim; ++d)
+      evaluate_1d(point[d], f[0][d], f[1][d], unused);
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      {
+        unsigned int index[dim], rest = i;
+        for (unsigned int d = 0; d < dim; ++d, rest /= n_1d)
+          index[d] = rest % n_1d;
+        const auto product = [&](const int derived) {
+          double result = 1.;
+          for (int d = 0; d < dim; ++d)
+            result *= f[d == derived][d][index[d]];
+          return result;
+        };
+        shape.value[i] = product(-1);
+        for (int d = 0; d < dim; ++d)
+          shape.gradient[i][d] = product(d);
+      }
+  }
+
   /** Values, gradients and second derivatives. */
   void evaluate(const dealii::Point<dim> &point, ShapeValues<dim> &shape) const
   {

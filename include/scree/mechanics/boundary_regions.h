@@ -20,6 +20,11 @@ struct BoundaryPoint
   dealii::Point<dim>     reference_position; //!< where formulas are evaluated
   dealii::Tensor<1, dim> start_displacement; //!< u_n [L]; what flows: BoundaryTerms
   double                 area_ratio = 1.;    //!< of reference area to area at the start of the step
+
+  PointInCell<dim> in_cell() const
+  {
+    return {active_cell, unit_point};
+  }
 };
 
 /** One boundary condition of one body, with the points of its region on this process. */

@@ -29,8 +29,7 @@ struct BoundarySetting
 
 /**
  * The part of the conditions of one Imposition in the equations: what is linear in u as a matrix
- * and loads, and on a moving geometry what is not as forces and their derivative. Vectors u are
- * ghosted.
+ * and loads, and on a moving geometry what is not as forces and their derivative.
  */
 template <int dim>
 class BoundaryTerm
@@ -51,10 +50,11 @@ public:
                          const bool prescribed) const = 0;
 
   /** Adds what is not linear on a moving geometry. */
-  virtual void add_internal_forces(const Vector &u, const double time, Vector &forces) const;
+  virtual void add_internal_forces(const PointEvaluator<dim> &u, const double time,
+                                   Vector &forces) const;
 
   /** Adds its derivative. */
-  virtual void add_tangent(const Vector &u, const double time, Matrix &matrix) const;
+  virtual void add_tangent(const PointEvaluator<dim> &u, const double time, Matrix &matrix) const;
 
   /** Whether matrix and tangent are symmetric. */
   virtual bool is_symmetric() const;
@@ -63,14 +63,15 @@ public:
   virtual std::vector<std::vector<DofIndex>> couplings() const;
 
   /** Tractions on the body at the points of an own region; zero unless overridden. */
-  virtual std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int region, const Vector &u,
-                                                        const double time) const;
+  virtual std::vector<dealii::Tensor<1, dim>>
+  tractions(const unsigned int region, const PointEvaluator<dim> &u, const double time) const;
 
   /** Resultant of the multipliers of an own region that are owned. */
-  virtual Resultant<dim> resultant_of_multipliers(const unsigned int region, const Vector &u) const;
+  virtual Resultant<dim> resultant_of_multipliers(const unsigned int         region,
+                                                  const PointEvaluator<dim> &u) const;
 
   /** Stored energy on this process. */
-  virtual double energy(const Vector &u, const double time) const;
+  virtual double energy(const PointEvaluator<dim> &u, const double time) const;
 
 protected:
   const BoundaryRegion<dim> &region(const unsigned int index) const
@@ -80,6 +81,7 @@ protected:
 
   /** The displacement unknowns of the cell of a point. */
   std::vector<DofIndex> unknowns(const BoundaryPoint<dim> &point) const;
+  void set_unknowns(const BoundaryPoint<dim> &point, std::vector<DofIndex> &unknowns) const;
 
   /**
    * Sets the derivative of the forces of a traction t(F_D) at a point by the unknowns of its cell,
@@ -95,11 +97,6 @@ protected:
   const Fields<dim>              &fields;
   const std::vector<unsigned int> own_regions;
 };
-
-/** Displacement since the beginning, u_n + u, at a point; u ghosted. */
-template <int dim>
-dealii::Tensor<1, dim> displacement_at(const Fields<dim> &fields, const BoundaryPoint<dim> &point,
-                                       const dealii::TrilinosWrappers::MPI::Vector &u);
 
 /** The term of an imposition; null if it acts on unknowns only (StrongSupports). */
 template <int dim>

@@ -49,11 +49,11 @@ public:
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const;
 
-  /** Adds what is not linear on a moving geometry, at the ghosted increment u and time `time`. */
-  void add_internal_forces(const Vector &u, const double time, Vector &forces) const;
+  /** Adds what is not linear on a moving geometry, at the increment u and time `time`. */
+  void add_internal_forces(const PointEvaluator<dim> &u, const double time, Vector &forces) const;
 
   /** Adds its derivative. */
-  void add_tangent(const Vector &u, const double time,
+  void add_tangent(const PointEvaluator<dim> &u, const double time,
                    dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /** Nodes that couple through multiplier rows, as unknowns. */
@@ -64,21 +64,21 @@ public:
   bool has_multipliers() const;
 
   /**
-   * Tractions of the condition on the body at the points of regions()[region] for ghosted u: the
+   * Tractions of the condition on the body at the points of regions()[region] for u: the
    * load; -k u of springs; sigma n - beta (u - ubar) on prescribed components. Mean supports: zero.
    */
-  std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int region, const Vector &u,
-                                                const double time) const;
+  std::vector<dealii::Tensor<1, dim>>
+  tractions(const unsigned int region, const PointEvaluator<dim> &u, const double time) const;
 
-  /** Displacement since the beginning, u_n + u, at point `q` of a region; u ghosted. */
+  /** Displacement since the beginning, u_n + u, at point `q` of a region. */
   dealii::Tensor<1, dim> displacement_at(const BoundaryRegion<dim> &region, const unsigned int q,
-                                         const Vector &u) const;
+                                         const PointEvaluator<dim> &u) const;
 
-  /** Resultant of each region, over all processes; `u` ghosted. */
-  std::vector<Resultant<dim>> resultants(const Vector &u, const double time) const;
+  /** Resultant of each region, over all processes. */
+  std::vector<Resultant<dim>> resultants(const PointEvaluator<dim> &u, const double time) const;
 
   /** Energy stored in springs, Nitsche and penalty terms over all processes. */
-  double energy(const Vector &u, const double time) const;
+  double energy(const PointEvaluator<dim> &u, const double time) const;
 
 private:
   const Fields<dim>                              &fields;

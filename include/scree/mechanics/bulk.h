@@ -10,6 +10,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -53,11 +54,12 @@ public:
   /** Adds int b . v at time `time`, over the body up to its boundary: see strip_widths. */
   void add_body_forces(Vector &loads, const double time) const;
 
-  /** Adds int P : grad v at the ghosted increment u; nothing on a fixed geometry. */
-  void add_internal_forces(const Vector &u, Vector &forces) const;
+  /** Adds int P : grad v at the increment u; nothing on a fixed geometry. */
+  void add_internal_forces(const PointEvaluator<dim> &u, Vector &forces) const;
 
   /** Adds its derivative. */
-  void add_tangent(const Vector &u, dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+  void add_tangent(const PointEvaluator<dim>              &u,
+                   dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
   /** What the laws did with the increment u, over all bodies and processes [force L]. */
   struct Work
@@ -65,7 +67,7 @@ public:
     double energy      = 0.; //!< stored
     double dissipation = 0.; //!< plastic, in this step
   };
-  Work work(const Vector &u) const;
+  Work work(const PointEvaluator<dim> &u) const;
 
   /** The start of the step, null on a fixed geometry. */
   const StepStart<dim> *step_start() const
@@ -80,23 +82,25 @@ public:
    */
   bool projected_divergence(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                             std::vector<double> &coefficients) const;
+  /** Its value for u; only where it is projected. */
+  double projected_divergence(const PointInCell<dim> &point, const PointEvaluator<dim> &u) const;
 
   /** The part of a deformable body's lambda that acts on it [force/area]. */
   double projected_lambda(const unsigned int body) const;
 
-  /** Of a cell at the ghosted increment u: sum_m psi_m values[m] is the projected VolumeChange. */
+  /** Of active cells at the increment u: sum_m psi_m values[m] is the projected VolumeChange. */
   struct CellVolume
   {
     bool                                        is_projected = false;
     std::array<double, VolumeModes<dim>::n_max> values       = {};
-    /** Their derivatives by the unknowns of the cell. */
-    std::array<std::vector<double>, VolumeModes<dim>::n_max> derivatives;
   };
-  CellVolume cell_volume(const unsigned int active_cell, const Vector &u,
-                         const bool with_derivatives) const;
+  const std::vector<CellVolume> &cell_volumes(const PointEvaluator<dim> &u) const;
 
-  /** Of all active cells, without derivatives. */
-  std::vector<CellVolume> cell_volumes(const Vector &u) const;
+  /** Derivatives of CellVolume::values of an own projected cell by the unknowns of the cell. */
+  using VolumeDerivatives
+    = std::array<std::array<double, dim * max_nodes_per_cell<dim>>, VolumeModes<dim>::n_max>;
+  VolumeDerivatives volume_derivatives(const unsigned int         active_cell,
+                                       const PointEvaluator<dim> &u) const;
 
   /** What the law sees at a point of the cell instead of the increment F_D. */
   dealii::Tensor<2, dim> projected_increment(const unsigned int            active_cell,
@@ -127,7 +131,7 @@ public:
   std::vector<std::vector<DofIndex>> couplings() const;
 
   /** Energy of the ghost penalty, summed over the processes. */
-  double ghost_energy(const Vector &u);
+  double ghost_energy(const PointEvaluator<dim> &u);
 
   /** Volume of each body by the cut quadrature, summed over the processes. */
   std::vector<double> volumes() const;
@@ -138,7 +142,7 @@ public:
 
   /** Values at a point in unit coordinates of an active cell. */
   BulkSample<dim> sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
-                         const Vector &u) const;
+                         const PointEvaluator<dim> &u) const;
 
 private:
   /** Points and weights of an owned active cell. */
@@ -157,20 +161,52 @@ private:
 
   // Moving geometry, bulk_increment.cc.
   void set_up_increments();
-  /** Points of a cell with the laws' answers. */
+  /** What the laws answer to an increment u: once for forces, tangent and work. */
+  struct Answers
+  {
+    std::optional<PointEvaluator<dim>>  u;
+    bool                                has_tangents = false;
+    std::vector<dealii::Tensor<2, dim>> piola;    //!< at all points, cell after cell
+    std::vector<dealii::Tensor<4, dim>> tangents; //!< likewise
+    Work                                work;     //!< on this process
+    std::vector<CellVolume>             volumes;  //!< of active cells
+    // Of projected volume changes.
+    /** P by the mode's volume, its force by F_D, its volume by F_D; without psi. */
+    std::vector<std::array<dealii::Tensor<2, dim>, 3>> volume_tensors;
+    /** Force of a mode of an owned cell by the volume of another one. */
+    std::vector<std::array<std::array<double, VolumeModes<dim>::n_max>, VolumeModes<dim>::n_max>>
+      mode_stiffness;
+  };
+  /** Those to u, asked for if the last ones were others. */
+  const Answers &answers(const PointEvaluator<dim> &u, const bool with_tangents) const;
+  /** Points of a cell while its law is asked. */
   struct CellIncrement;
-  /** Calls f(cell) for all owned cells at increment u. */
-  template <typename Function>
-  void            for_each_cell(const Vector &u, const bool with_tangents, const Function &f) const;
-  BulkSample<dim> increment_sample(const PointInCell<dim>       &point,
-                                   const dealii::Tensor<1, dim> &displacement,
-                                   const dealii::Tensor<2, dim> &gradient, const Vector &u) const;
-  double          linear_strain_energy(const Vector &u) const;
+  void            ask(const unsigned int active_cell, CellIncrement &cell) const;
+  BulkSample<dim> increment_sample(const PointInCell<dim>    &point,
+                                   const PointEvaluator<dim> &u) const;
+  CellVolume      cell_volume(const unsigned int active_cell, const PointEvaluator<dim> &u) const;
+  double          linear_strain_energy(const PointEvaluator<dim> &u) const;
+  /** Unit gradients of the basis at the points of a cell. */
+  const double *unit_gradients(const unsigned int active_cell) const
+  {
+    return fields.cells()[active_cell].is_cut ? &cut_gradients[first_gradient[active_cell]]
+                                              : whole_gradients.data();
+  }
 
   void cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const;
 
+  /** F_D with unit gradients of the basis at a point. */
+  dealii::Tensor<2, dim> increment(const unsigned int active_cell, const double *gradients,
+                                   const PointEvaluator<dim> &u) const
+  {
+    return u.gradient(active_cell, gradients)
+           + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  }
+
   // Projected volume changes, bulk_volume.cc.
   void set_up_volume_rows();
+  /** Of a cell, and the factor of these rows. */
+  std::pair<const double *, double> volume_rows_of(const unsigned int active_cell) const;
   /** Adds lambda int (projected div u) (projected div v). */
   void add_projected_stiffness(const unsigned int active_cell, const double lambda,
                                dealii::FullMatrix<double> &matrix) const;
@@ -179,10 +215,11 @@ private:
   double ghost_stiffness(const GhostFace &face) const;
   void   find_secant_ratios();
   /** Replaces the increments of a cell by projected ones. */
-  void project(CellIncrement &cell, std::vector<VolumeChange<dim>> &changes) const;
+  void project(CellIncrement &cell) const;
   /** Turns the law's answers to projected increments into derivatives by the increments. */
-  void pull_back(CellIncrement &cell, const std::vector<VolumeChange<dim>> &changes) const;
-  void add_volume_couplings(const CellIncrement &cell, dealii::FullMatrix<double> &block) const;
+  void pull_back(CellIncrement &cell) const;
+  void add_volume_couplings(const unsigned int          active_cell,
+                            dealii::FullMatrix<double> &block) const;
 
   const Fields<dim>            &fields;
   const CutQuadrature<dim>     &quadrature;
@@ -197,6 +234,9 @@ private:
   std::vector<double>         cut_gradients;   //!< of the basis at points of cut cells
   std::vector<std::size_t>    first_gradient;  //!< of each owned cell
   std::vector<double>         whole_gradients; //!< of the basis for unit edge
+  mutable Answers             last;            //!< to the last increment
+  /** The first increment after a tangent most often is the next one to have a tangent. */
+  mutable bool expects_tangent = false;
 
   /** int f_j div u of cut active cells, as far as projected on the functions of VolumeModes. */
   std::vector<double>           volume_rows;

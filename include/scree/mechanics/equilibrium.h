@@ -145,8 +145,9 @@ public:
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
 
-  /** u with ghost values and hanging nodes, to evaluate fields. */
-  Vector with_ghosts(const Vector &u) const;
+  /** u with ghost values and hanging nodes, and the field that it is. */
+  Vector              with_ghosts(const Vector &u) const;
+  PointEvaluator<dim> at_points(const Vector &u) const;
 
   /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
   std::vector<Resultant<dim>> resultants(const Vector &u) const;
@@ -168,8 +169,6 @@ private:
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
   bool                                  turns_infinitesimally() const;
-  /** What the bulk sees of u at the last residual(), with ghosts. */
-  const Vector &seen_by_bulk() const;
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void         hold_moments(Vector &r);
   void         set_zero_on_prescribed(Vector &r) const;
@@ -178,20 +177,20 @@ private:
   void         reactions(Vector &result) const;
   unsigned int n_rigid_unknowns() const;
   /** External work of the step to `u`, but that of dead loads. */
-  double work_of_step(const Vector &u, const Vector &with_ghost_values);
+  double work_of_step(const Vector &u, const PointEvaluator<dim> &field);
   double work_of_multipliers(const Vector &u);
   /** Of pressures that follow the surface. */
-  double work_of_pressures(const Vector &with_ghost_values) const;
+  double work_of_pressures(const PointEvaluator<dim> &u) const;
   /** Of constant forces on what is prescribed, from the accepted time to now. */
   double work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const;
   /** What the unbalanced forces of the start of the step release in its motion. */
   double released_work(const Vector &motion, const ContactHistory<dim> &old_history) const;
   bool   is_following_pressure(const BoundaryRegion<dim> &region) const;
-  void   remember_conditions(const Vector &with_ghost_values);
+  void   remember_conditions(const PointEvaluator<dim> &u);
   void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history,
                           Vector &r);
   /** Returns the plastic dissipation since the start of the step. */
-  double store_energies(const Vector &with_ghost_values);
+  double store_energies(const PointEvaluator<dim> &u);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
@@ -212,7 +211,7 @@ private:
   Vector applied_forces;  //!< on rigid bodies at the last residual()
   Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector ghosted;         //!< u of the last residual() with ghosts
-  Vector strained;        //!< what the bulk sees of it where free bodies turn infinitesimally
+  PointEvaluator<dim> seen_by_bulk; //!< what the bulk sees of it
   dealii::IndexSet    ghosted_dofs;
   double              time              = 0.;
   double              accepted_time     = 0.;

@@ -26,10 +26,9 @@ void distribute_points(const Fields<dim> &fields, const MovingGeometryParameters
  * as those of `bulk`: x <- x + u, F <- F_D F, stresses and internal variables.
  *
  * @param points those at the start of the step, of bulk.step_start()
- * @param u      with ghosts [L]
  */
 template <int dim>
 MaterialPoints<dim> moved_points(const MaterialPoints<dim>    &points,
-                                 const std::vector<Body<dim>> &bodies, const Fields<dim> &fields,
-                                 const Bulk<dim> &bulk, const typename Bulk<dim>::Vector &u);
+                                 const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
+                                 const PointEvaluator<dim> &u);
 } // namespace scree

@@ -24,8 +24,8 @@ public:
 
   std::vector<std::vector<DofIndex>> couplings() const override;
 
-  Resultant<dim> resultant_of_multipliers(const unsigned int region,
-                                          const Vector      &u) const override;
+  Resultant<dim> resultant_of_multipliers(const unsigned int         region,
+                                          const PointEvaluator<dim> &u) const override;
 
 private:
   /** Row `m` of a region: coefficients of the cell's unknowns at a point. */

@@ -2,6 +2,8 @@
 
 #include <scree/mechanics/boundary_term.h>
 
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -26,17 +28,19 @@ public:
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const override;
 
-  void add_internal_forces(const Vector &u, const double time, Vector &forces) const override;
+  void add_internal_forces(const PointEvaluator<dim> &u, const double time,
+                           Vector &forces) const override;
 
-  void add_tangent(const Vector &u, const double time, Matrix &matrix) const override;
+  void add_tangent(const PointEvaluator<dim> &u, const double time, Matrix &matrix) const override;
 
   bool is_symmetric() const override;
 
   /** sigma n - beta (u - ubar) on the prescribed components, and that of the moments. */
-  std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int region, const Vector &u,
-                                                const double time) const override;
+  std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int         region,
+                                                const PointEvaluator<dim> &u,
+                                                const double               time) const override;
 
-  double energy(const Vector &u, const double time) const override;
+  double energy(const PointEvaluator<dim> &u, const double time) const override;
 
 private:
   /**
@@ -53,6 +57,8 @@ private:
     unsigned int     region, begin, end; //!< points of one cell
     double           stiffness;
     VolumeModes<dim> modes;
+    /** Coefficients of each moment by the unknowns of the cell. */
+    std::vector<std::vector<double>> rows;
   };
   /**
    * Nitsche's method does not hold cells that flow (plastic strain beyond the elastic) on the outer
@@ -71,7 +77,7 @@ private:
    */
   void forgive_flow();
   void find_moments();
-  /** Coefficients of moment m by the unknowns of the cell. */
+  /** NormalMoments::rows of moment m. */
   std::vector<double> moment_row(const NormalMoments &moments, const unsigned int m) const;
   /** int psi_m n.(ubar - u_n) over the prescribed components. */
   double prescribed_moment(const NormalMoments &moments, const unsigned int m,
@@ -80,21 +86,48 @@ private:
   void   add_moment_loads(Vector &loads, const double time) const;
   /** What the moments add to the traction at a point. */
   dealii::Tensor<1, dim> moment_traction(const unsigned int region, const unsigned int q,
-                                         const Vector &u, const double time) const;
+                                         const PointEvaluator<dim> &u, const double time) const;
 
   /** Whether Nitsche's method prescribes it. */
   bool is_nitsche(const BoundaryRegion<dim> &region) const;
   /** Sign of the adjoint term times flow_ratio() in the cell of a point. */
   double adjoint_factor(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point) const;
-  /** The law's answer to the increment u at a point, F_D and unit gradients;
-   * prescribed_displacements_increment.cc. */
-  struct PointIncrement;
-  PointIncrement increment_at(const unsigned int region, const unsigned int q, const Vector &u,
-                              const bool with_tangent) const;
-  /** sigma n at a point, on a moving geometry P n. */
-  dealii::Tensor<1, dim> stress_vector(const unsigned int region, const unsigned int q,
-                                       const Vector &u) const;
-  void                   find_starts();
+  /** What is prescribed for component k of the condition at a point, at time `time` [L]. */
+  double prescribed_value(const unsigned int region, const unsigned int q, const unsigned int k,
+                          const double time) const;
+
+  // Nitsche's method on a moving geometry, prescribed_displacements_increment.cc.
+  /** The law's answer at a point. */
+  struct PointAnswer
+  {
+    dealii::Tensor<2, dim> piola;
+    dealii::Tensor<4, dim> tangent; //!< dP/dF_D at fixed volume of the cell
+    /** Of a projected volume change: dP by the values of the modes, but for psi_m. */
+    dealii::Tensor<2, dim> by_volume;
+  };
+  /** Those to an increment u at all points: once for forces, tractions and tangent. */
+  struct Answers
+  {
+    std::optional<PointEvaluator<dim>>    u;
+    bool                                  has_tangents = false;
+    std::vector<std::vector<PointAnswer>> of_points; //!< [region][q]
+  };
+  /** Those to u, asked for if the last ones were others. */
+  const Answers &answers(const PointEvaluator<dim> &u, const bool with_tangents) const;
+  void           ask(const unsigned int region) const;
+  using VolumeDerivatives = typename Bulk<dim>::VolumeDerivatives;
+  /** Sets the derivative of the forces of a point; `volume` of its cell, null: not projected. */
+  void set_point_tangent(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
+                         const PointAnswer &answer, const VolumeDerivatives *volume,
+                         dealii::FullMatrix<double> &block) const;
+  /** sigma n at a point of a fixed geometry. */
+  dealii::Tensor<1, dim> linear_stress_vector(const BoundaryRegion<dim> &region,
+                                              const BoundaryPoint<dim>  &point,
+                                              const PointEvaluator<dim> &u) const;
+  /** sigma n at the points of a region, on a moving geometry P n. */
+  std::vector<dealii::Tensor<1, dim>> fluxes(const unsigned int         region,
+                                             const PointEvaluator<dim> &u) const;
+  void                                find_starts();
 
   /** sigma(N_a e_i) n for all unknowns of the cell at a point. */
   void stress_vectors(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
@@ -108,6 +141,15 @@ private:
   const StepStart<dim>                    *start;
   std::vector<std::vector<IncrementStart>> starts; //!< [region][q], of Nitsche's method
   std::vector<NormalMoments>               normal_moments;
-  std::vector<std::vector<int>>            moments_of_point; //!< [region][q], -1: none
+  std::vector<std::vector<int>>            moments_of_point;        //!< [region][q], -1: none
+  mutable Answers                          last;                    //!< to the last increment
+  mutable bool                             expects_tangent = false; //!< as Bulk does
+  /** Formulas are evaluated once per time. */
+  struct PrescribedValues
+  {
+    double                           time = std::numeric_limits<double>::quiet_NaN();
+    std::vector<std::vector<double>> of_points; //!< [region], component by component of each point
+  };
+  mutable PrescribedValues prescribed_values;
 };
 } // namespace scree

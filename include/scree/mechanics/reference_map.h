@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/point_evaluator.h>
 #include <scree/points/material_points.h>
 
 #include <deal.II/lac/trilinos_vector.h>
@@ -9,14 +9,6 @@
 
 namespace scree
 {
-/** A point in unit coordinates of an active cell. */
-template <int dim>
-struct PointInCell
-{
-  unsigned int       active_cell;
-  dealii::Point<dim> unit_point;
-};
-
 /**
  * The active cell in or nearest to each material point; @throws ExcMessage if a point is farther
  * than a cell from all active cells of its body.

@@ -42,6 +42,12 @@ public:
     return fitted;
   }
 
+  /** The same at points [L]. */
+  const PointEvaluator<dim> &displacement_field() const
+  {
+    return displacements;
+  }
+
   /** By the fit. */
   Deformation deformation(const PointInCell<dim> &point) const;
 
@@ -105,7 +111,7 @@ private:
   const MovingGeometryParameters &parameters;
   std::vector<PointInCell<dim>>   locations;
   Vector                          fitted;        //!< u_n at the owned unknowns
-  std::vector<double>             displacements; //!< u_n, see values_by_cell()
+  PointEvaluator<dim>             displacements; //!< u_n
   MaterialPoints<dim>             cloud;         //!< own points and neighbours
   /** From the cloud, if something needs it. */
   std::optional<MovingLeastSquares<dim>> moving_least_squares;

@@ -22,23 +22,25 @@ public:
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const override;
 
-  void add_internal_forces(const Vector &u, const double time, Vector &forces) const override;
+  void add_internal_forces(const PointEvaluator<dim> &u, const double time,
+                           Vector &forces) const override;
 
-  void add_tangent(const Vector &u, const double time, Matrix &matrix) const override;
+  void add_tangent(const PointEvaluator<dim> &u, const double time, Matrix &matrix) const override;
 
   bool is_symmetric() const override;
 
-  std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int region, const Vector &u,
-                                                const double time) const override;
+  std::vector<dealii::Tensor<1, dim>> tractions(const unsigned int         region,
+                                                const PointEvaluator<dim> &u,
+                                                const double               time) const override;
 
-  double energy(const Vector &u, const double time) const override;
+  double energy(const PointEvaluator<dim> &u, const double time) const override;
 
 private:
   /** Whether the region's tractions move with the surface in this step. */
   bool is_following(const unsigned int region) const;
   /** The law's answer at the points of a region; u null: at the start of the step. */
-  std::vector<SurfaceTraction<dim>> evaluate(const unsigned int region, const Vector *u,
-                                             const double time) const;
+  std::vector<SurfaceTraction<dim>> evaluate(const unsigned int         region,
+                                             const PointEvaluator<dim> *u, const double time) const;
   /** Adds factor int t . v over a region. */
   void add_integral(const unsigned int region, const double factor,
                     const std::vector<SurfaceTraction<dim>> &tractions, Vector &forces) const;

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <scree/points/seeding.h>
+
+#include <functional>
+#include <random>
+
+#include "equilibrium_model.h"
+
+namespace scree
+{
+/** x - X as a function of the present position x. */
+template <int dim>
+using Displacement = std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>;
+
+/** Bodies at the start of a step, which material points brought there by a displacement. */
+template <int dim>
+struct StartedStep
+{
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  StartedStep(const std::string &text, const std::string &law,
+              const Displacement<dim> &displacement, const double plastic_strain = 0.)
+      : input(text)
+      , cut(input.bodies)
+      , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
+      , points(moved(law, displacement, plastic_strain))
+      , start(*cut.fields, quadrature, cut.bodies, points, parameters)
+      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
+      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                input.contact.shift * cut.grid.finest_size())
+      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
+  {
+  }
+
+  MaterialPoints<dim> moved(const std::string &law, const Displacement<dim> &displacement,
+                            const double plastic_strain)
+  {
+    MaterialParameters material;
+    material.law     = law;
+    material.young   = 1000.;
+    material.poisson = 0.3;
+    if (is_plastic(law))
+      {
+        material.yield_stress      = 20.;
+        material.hardening_modulus = 50.;
+      }
+    const std::shared_ptr<const IncrementLaw<dim>> shared = make_increment_law<dim>(material);
+    for (auto &body : cut.bodies)
+      if (!body.is_rigid())
+        body.law = shared;
+    const std::vector<double> density(cut.bodies.size(), 1.);
+    const unsigned int        n_internal
+      = StepStart<dim>::needs_internal(cut.bodies) ? StepStart<dim>::n_internal : 0;
+    MaterialPoints<dim> result
+      = PointSeeding<dim>(*cut.fields, *cut.level_set_nodes, cut.bodies, quadrature, density)
+          .on_sub_grid(cut.fields->basis.degree + 1, n_internal);
+    for (std::size_t p = 0; p < result.size(); ++p)
+      {
+        result.reference_position[p] = result.position[p] - displacement(result.position[p]);
+        if (n_internal > 0)
+          result.internal[p * n_internal + 6] = plastic_strain;
+      }
+    return result;
+  }
+
+  std::vector<ContactPair> contact_pairs() const
+  {
+    std::vector<ContactPair> pairs;
+    for (const auto &[a, b] : cut.pairs)
+      pairs.push_back({a, b, "pair", input.contact.law_of("a", "b")});
+    return pairs;
+  }
+
+  /** Random increments of the given size at the nodes. */
+  Vector random(const double size, const unsigned int seed) const
+  {
+    Vector                                 u(cut.fields->owned(), MPI_COMM_WORLD);
+    std::mt19937                           engine(seed);
+    std::uniform_real_distribution<double> number(-size, size);
+    for (const DofIndex index : cut.fields->owned())
+      u(index) = cut.fields->hanging_constraints().is_constrained(index) ? 0. : number(engine);
+    u.compress(dealii::VectorOperation::insert);
+    equilibrium.strong_supports().set_zero(u);
+    return u;
+  }
+
+  EquilibriumInput<dim>    input;
+  CutBodies<dim>           cut;
+  MovingGeometryParameters parameters;
+  CutQuadrature<dim>       quadrature;
+  MaterialPoints<dim>      points;
+  StepStart<dim>           start;
+  Bulk<dim>                bulk;
+  BoundaryTerms<dim>       boundary_terms;
+  ContactPoints<dim>       contact;
+  Equilibrium<dim>         equilibrium;
+};
+} // namespace scree
