@@ -93,7 +93,6 @@ def run_scree(binary, prm, results, settings=()):
             'seconds': seconds}
 
 
-def print_study_end():
-    """Date and machine class under a table."""
-    print('\nMeasured %s on 2 cores, x86-64; CPU seconds of the whole run on one core.'
-          % datetime.date.today().isoformat())
+def print_study_end(seconds='CPU seconds of the whole run on one core'):
+    """Date and machine class under a table, and what its seconds are."""
+    print('\nMeasured %s on 2 cores, x86-64; %s.' % (datetime.date.today().isoformat(), seconds))
