@@ -139,10 +139,9 @@ Model<dim>::accept(const Vector &u, const double time)
 
 template <int dim>
 unsigned int
-Model<dim>::move_bodies()
+Model<dim>::move_bodies(const Vector &ghosted)
 {
   const Timings::Scope scope(run_log.timings, "level sets");
-  const auto           ghosted = problem().equilibrium().with_ghosts(current.displacement);
   const auto      start = problem().equilibrium().with_ghosts(problem().step_start->displacement());
   const double    margin    = lattice_margin();
   auto           &bodies    = current.bodies;
@@ -187,7 +186,7 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
     current.step_end.multipliers.push_back(ghosted(problem().fields.multiplier(i)));
   MotionRecord<dim> record;
   record.transfer_report = problem().step_start->transfer_report();
-  record.n_islands       = move_bodies();
+  record.n_islands       = move_bodies(ghosted);
   current.points         = std::move(points);
   const auto before      = current.points.totals(current.bodies.size(), communicator);
   require_inside_box(problem(), current.points, current.time);

@@ -75,16 +75,14 @@ for_each_set(const std::vector<SmoothPiece<dim>> &pieces, const PieceSet<dim> &s
       for_each_set(pieces, larger, i + 1, size, f);
     }
 }
-} // namespace
 
+/** foot_on_boundary() with X and G = dX/dx at x, phi = phi_0(X). */
 template <int dim>
 std::optional<BoundaryFoot<dim>>
-foot_on_boundary(const Body<dim> &body, const dealii::Point<dim> &x)
+foot_from(const Body<dim> &body, const dealii::Point<dim> &x, const dealii::Point<dim> &X,
+          const dealii::Tensor<2, dim> &G, const double phi)
 {
-  const double                 spacing = body.level_set.spacing();
-  const dealii::Point<dim>     X       = initial_position(body, x);
-  const dealii::Tensor<2, dim> G       = initial_gradient(body, x);
-  const double                 phi     = body.shape->signed_distance(X);
+  const double spacing = body.level_set.spacing();
   // The nearest initial place is at most |F| |G| |phi| from X.
   dealii::BoundingBox<dim> box({X, X});
   box.extend(std::abs(phi) * invert(G).norm() * G.norm() + 1e-6 * spacing);
@@ -109,6 +107,15 @@ foot_on_boundary(const Body<dim> &body, const dealii::Point<dim> &x)
     });
   return best;
 }
+} // namespace
+
+template <int dim>
+std::optional<BoundaryFoot<dim>>
+foot_on_boundary(const Body<dim> &body, const dealii::Point<dim> &x)
+{
+  const dealii::Point<dim> X = initial_position(body, x);
+  return foot_from(body, x, X, initial_gradient(body, x), body.shape->signed_distance(X));
+}
 
 template <int dim>
 void
@@ -117,11 +124,12 @@ set_moved_distances(Body<dim> &body, const double reach)
   Lattice<dim> &phi = body.level_set;
   for (std::size_t i = 0; i < phi.values().size(); ++i)
     {
-      const dealii::Point<dim> x        = phi.node(phi.index(i));
-      double                   distance = body.shape->signed_distance(initial_position(body, x));
+      const dealii::Point<dim>     x = phi.node(phi.index(i)), X = initial_position(body, x);
+      const dealii::Tensor<2, dim> G        = initial_gradient(body, x);
+      double                       distance = body.shape->signed_distance(X);
       // |phi_0(X)| is at most |G| times the distance.
-      if (std::abs(distance) <= reach * initial_gradient(body, x).norm())
-        if (const auto foot = foot_on_boundary(body, x))
+      if (std::abs(distance) <= reach * G.norm())
+        if (const auto foot = foot_from(body, x, X, G, distance))
           distance = foot->distance;
       phi.values()[i] = distance;
     }

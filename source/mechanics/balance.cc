@@ -71,9 +71,8 @@ node_sums(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, const
   std::vector<bool>          is_known(fields.owned().n_elements(), false);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
-      NodeSums<dim>    &sum      = sums[cell.body];
+      const ActiveCell &cell = fields.cells()[a];
+      NodeSums<dim>    &sum  = sums[cell.body];
       for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
         {
           const DofIndex node = fields.nodes(a)[i];
@@ -82,10 +81,9 @@ node_sums(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, const
           const auto place = fields.owned().index_within_set(node);
           if (is_known[place])
             continue;
-          is_known[place] = true;
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
-          const dealii::Tensor<1, dim> x = position - bodies[cell.body].box.center();
+          is_known[place]                       = true;
+          const dealii::Point<dim>     position = fields.position(a, fields.basis.node(i));
+          const dealii::Tensor<1, dim> x        = position - bodies[cell.body].box.center();
           dealii::Tensor<1, dim>       displacement, contact_force, body_force;
           for (unsigned int d = 0; d < dim; ++d)
             {

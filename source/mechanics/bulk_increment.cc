@@ -73,11 +73,9 @@ template <int dim>
 const typename Bulk<dim>::Answers &
 Bulk<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
 {
-  if (last.u && *last.u == u && (last.has_tangents || !with_tangents))
+  if (!last.renew(u, with_tangents))
     return last;
-  last.u            = u;
-  last.has_tangents = with_tangents;
-  last.work         = {};
+  last.work = {};
   last.piola.resize(starts.size());
   last.volumes.resize(fields.cells().size());
   if (with_tangents)
@@ -269,7 +267,7 @@ Bulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &forces) con
 {
   if (!start)
     return;
-  const auto            &piola = answers(u, std::exchange(expects_tangent, false)).piola;
+  const auto            &piola = answers(u, std::exchange(last.expects_tangent, false)).piola;
   const unsigned int     n     = fields.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
@@ -334,7 +332,7 @@ Bulk<dim>::add_tangent(const PointEvaluator<dim>              &u,
   if (!start)
     return;
   const auto &tangents         = answers(u, true).tangents;
-  expects_tangent              = true;
+  last.expects_tangent         = true;
   const unsigned int         n = fields.basis.n_nodes;
   dealii::FullMatrix<double> block(n * dim, n * dim);
   std::vector<DofIndex>      unknowns;

@@ -16,17 +16,13 @@ set_increments(const Fields<dim> &fields, const Predictor<dim> &predictor, const
 {
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
+      const auto &of_body = predictor.of_bodies[fields.cells()[a].body];
       for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
         {
           const DofIndex node = fields.nodes(a)[i];
           if (!fields.owned().is_element(node) || fields.hanging_constraints().is_constrained(node))
             continue;
-          const auto increment
-            = factor
-              * predictor.of_bodies[cell.body](
-                geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i)));
+          const auto increment = factor * of_body(fields.position(a, fields.basis.node(i)));
           for (unsigned int d = 0; d < dim; ++d)
             u(node + d) = increment[d];
         }

@@ -43,8 +43,7 @@ distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &par
   send_to_owners<dim>(points, owner, fields.grid.communicator());
   std::vector<double> cell_size;
   for (const auto &location : locate_points(fields, points))
-    cell_size.push_back(largest_spread
-                        * fields.grid.cells()[fields.cells()[location.active_cell].grid_cell].size);
+    cell_size.push_back(largest_spread * fields.cell_size(location.active_cell));
   const unsigned int degree = fields.basis.degree;
   split_points(points, cell_size, points_per_direction(parameters, degree),
                {degree, parameters.support});

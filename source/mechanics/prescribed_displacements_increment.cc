@@ -27,10 +27,8 @@ template <int dim>
 const typename PrescribedDisplacements<dim>::Answers &
 PrescribedDisplacements<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
 {
-  if (last.u && *last.u == u && (last.has_tangents || !with_tangents))
+  if (!last.renew(u, with_tangents))
     return last;
-  last.u            = u;
-  last.has_tangents = with_tangents;
   last.of_points.resize(setting.regions.size());
   for (const unsigned int r : own_regions)
     if (is_nitsche(this->region(r)))
@@ -122,8 +120,8 @@ PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &u,
 {
   if (!start)
     return;
-  const auto            &of_points = answers(u, std::exchange(expects_tangent, false)).of_points;
-  const unsigned int     n         = fields.basis.n_nodes;
+  const auto        &of_points = answers(u, std::exchange(last.expects_tangent, false)).of_points;
+  const unsigned int n         = fields.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
 
@@ -189,7 +187,7 @@ PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const do
     return;
   const auto &of_points              = answers(u, true).of_points;
   const auto &volumes                = bulk.cell_volumes(u);
-  expects_tangent                    = true;
+  last.expects_tangent               = true;
   const unsigned int         n       = fields.basis.n_nodes;
   unsigned int               of_cell = dealii::numbers::invalid_unsigned_int;
   VolumeDerivatives          volume;

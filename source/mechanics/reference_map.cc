@@ -192,9 +192,8 @@ private:
   {
     for (const GhostFace &face : jumps.faces())
       {
-        const double size
-          = nodes.fields.grid.cells()[nodes.fields.cells()[face.cell].grid_cell].size;
-        auto block = jumps.block(face);
+        const double size  = nodes.fields.cell_size(face.cell);
+        auto         block = jumps.block(face);
         block.matrix *= jump_weight * size * size;
         nodes.constraints.distribute_local_to_global(block.matrix, numbers(block.nodes), matrix);
       }

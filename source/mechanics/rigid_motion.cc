@@ -44,12 +44,10 @@ near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
     motions.emplace_back(body);
   for (unsigned int a = 0; a < fields.cells().size(); ++a)
     {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
+      const ActiveCell &cell = fields.cells()[a];
       for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
         {
-          const dealii::Point<dim> position
-            = geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i));
+          const dealii::Point<dim> position = fields.position(a, fields.basis.node(i));
           for (unsigned int m = 0; m < n_motions; ++m)
             {
               const auto value = motions[cell.body].motion(m, position);

@@ -8,12 +8,16 @@ template <int dim>
 SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
                                 const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
                                 const ContactPoints<dim> &contact, Timings &timings)
-    : fields(fields)
-    , equilibrium(equilibrium)
+    : equilibrium(equilibrium)
     , contact(contact)
     , timings(timings)
     , linear_solver(parameters, dim, degree)
 {
+  const auto n_contact_points
+    = dealii::Utilities::MPI::sum(contact.points().size(), fields.grid.communicator());
+  condenses = equilibrium.is_linear_but_for_contact()
+              && linear_solver.condenses(fields.n_dofs(), dim * n_contact_points)
+              && !equilibrium.has_free_rigid_bodies();
   linear_solver.set_near_null_space(equilibrium.rigid_motions());
   linear_solver.set_border(fields.n_trailing());
 }
@@ -23,11 +27,7 @@ LinearSolveResult
 SystemSolver<dim>::solve(const Vector &r, const double tolerance, const bool may_condense,
                          Vector &du)
 {
-  const auto n_contact_points
-    = dealii::Utilities::MPI::sum(contact.points().size(), fields.grid.communicator());
-  if (may_condense && equilibrium.is_linear_but_for_contact()
-      && linear_solver.condenses(fields.n_dofs(), dim * n_contact_points)
-      && !equilibrium.has_free_rigid_bodies())
+  if (may_condense && condenses)
     try
       {
         return solve_condensed(r, du);

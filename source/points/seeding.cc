@@ -162,12 +162,11 @@ PointSeeding<dim>::add_cell(MaterialPoints<dim> &points, const unsigned int acti
                             const CellPoints<dim> &cell_points,
                             const unsigned int     n_per_direction) const
 {
-  const unsigned int body = fields.cells()[active_cell].body;
-  const auto        &cell = fields.grid.cells()[fields.cells()[active_cell].grid_cell];
+  const unsigned int body    = fields.cells()[active_cell].body;
+  const double       spacing = fields.cell_size(active_cell) / n_per_direction;
   for (std::size_t q = 0; q < cell_points.points.size(); ++q)
-    points.add(cell.lower + cell.size * Tensor<1, dim>(cell_points.points[q]), body,
-               cell_points.weights[q], cell.size / n_per_direction,
-               density[body] * cell_points.weights[q]);
+    points.add(fields.position(active_cell, cell_points.points[q]), body, cell_points.weights[q],
+               spacing, density[body] * cell_points.weights[q]);
 }
 
 /** The bulk quadrature of an active cell, weights in physical measure. */

@@ -308,8 +308,9 @@ Newton::solve(Vector &u) const
       progress.mass         = first_later_mass;
       progress.is_transient = false;
       // What one line search cycles in, the other one may leave.
-      progress.line_search
-        = progress.line_search == LineSearch::work ? LineSearch::residual : LineSearch::work;
+      if (parameters.line_search != LineSearch::none)
+        progress.line_search
+          = progress.line_search == LineSearch::work ? LineSearch::residual : LineSearch::work;
       u = last;
       if (go_on(u))
         last = u;

@@ -21,15 +21,9 @@ void
 for_each_node(const Fields<dim> &fields, const F &f)
 {
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    {
-      const ActiveCell &cell     = fields.cells()[a];
-      const auto       &geometry = fields.grid.cells()[cell.grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-        if (fields.owned().is_element(fields.nodes(a)[i]))
-          f(cell.body,
-            geometry.lower + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(i)),
-            fields.nodes(a)[i]);
-    }
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      if (fields.owned().is_element(fields.nodes(a)[i]))
+        f(fields.cells()[a].body, fields.position(a, fields.basis.node(i)), fields.nodes(a)[i]);
 }
 
 /** Calls f(i, unknown) for the own ones of the unknowns without a node. */

@@ -95,8 +95,9 @@ private:
   void discretise(const double step_size);
   /** Begins a step on the new geometry: State::displacement and the history of contact. */
   void start_step();
-  /** Level sets, boxes, poses, and what the next step expects. Returns the number of islands. */
-  unsigned int move_bodies();
+  /** Level sets, boxes, poses, and what the next step expects of a displacement with ghosts;
+   * returns the number of islands. */
+  unsigned int move_bodies(const Vector &ghosted);
 
   const Parameters<dim>                &parameters;
   const MPI_Comm                        communicator;

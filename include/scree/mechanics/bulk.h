@@ -2,6 +2,7 @@
 
 #include <scree/discretization/cut_quadrature.h>
 #include <scree/discretization/ghost_penalty.h>
+#include <scree/mechanics/answered_increment.h>
 #include <scree/mechanics/step_start.h>
 #include <scree/mechanics/volume_projection.h>
 
@@ -10,7 +11,6 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace scree
@@ -162,10 +162,8 @@ private:
   // Moving geometry, bulk_increment.cc.
   void set_up_increments();
   /** What the laws answer to an increment u: once for forces, tangent and work. */
-  struct Answers
+  struct Answers : AnsweredIncrement<dim>
   {
-    std::optional<PointEvaluator<dim>>  u;
-    bool                                has_tangents = false;
     std::vector<dealii::Tensor<2, dim>> piola;    //!< at all points, cell after cell
     std::vector<dealii::Tensor<4, dim>> tangents; //!< likewise
     Work                                work;     //!< on this process
@@ -235,8 +233,6 @@ private:
   std::vector<std::size_t>    first_gradient;  //!< of each owned cell
   std::vector<double>         whole_gradients; //!< of the basis for unit edge
   mutable Answers             last;            //!< to the last increment
-  /** The first increment after a tangent most often is the next one to have a tangent. */
-  mutable bool expects_tangent = false;
 
   /** int f_j div u of cut active cells, as far as projected on the functions of VolumeModes. */
   std::vector<double>           volume_rows;

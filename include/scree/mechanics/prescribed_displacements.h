@@ -1,9 +1,9 @@
 #pragma once
 
+#include <scree/mechanics/answered_increment.h>
 #include <scree/mechanics/boundary_term.h>
 
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace scree
@@ -106,10 +106,8 @@ private:
     dealii::Tensor<2, dim> by_volume;
   };
   /** Those to an increment u at all points: once for forces, tractions and tangent. */
-  struct Answers
+  struct Answers : AnsweredIncrement<dim>
   {
-    std::optional<PointEvaluator<dim>>    u;
-    bool                                  has_tangents = false;
     std::vector<std::vector<PointAnswer>> of_points; //!< [region][q]
   };
   /** Those to u, asked for if the last ones were others. */
@@ -141,9 +139,8 @@ private:
   const StepStart<dim>                    *start;
   std::vector<std::vector<IncrementStart>> starts; //!< [region][q], of Nitsche's method
   std::vector<NormalMoments>               normal_moments;
-  std::vector<std::vector<int>>            moments_of_point;        //!< [region][q], -1: none
-  mutable Answers                          last;                    //!< to the last increment
-  mutable bool                             expects_tangent = false; //!< as Bulk does
+  std::vector<std::vector<int>>            moments_of_point; //!< [region][q], -1: none
+  mutable Answers                          last;             //!< to the last increment
   /** Formulas are evaluated once per time. */
   struct PrescribedValues
   {

@@ -38,11 +38,11 @@ public:
 private:
   LinearSolveResult solve_condensed(const Vector &r, Vector &du);
 
-  const Fields<dim>               &fields;
   Equilibrium<dim>                &equilibrium;
   const ContactPoints<dim>        &contact;
   Timings                         &timings;
   LinearSolver                     linear_solver;
+  bool                             condenses; //!< few contact points, and nothing else changes K
   std::unique_ptr<CondensedSolver> condensed_solver; //!< made when first needed
 };
 } // namespace scree

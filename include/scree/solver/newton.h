@@ -136,11 +136,11 @@ struct NewtonResult
  * along du of the energy plus s |u' - u|_M^2/2. s is 0.1 at first, a tenth, at least 1e-6, after a
  * step of alpha > 1/2 and four times as large after one of alpha < 0.2. The second part is the
  * iteration above from where the first one ended, with friction set free and with s from 1e-4 to
- * 1e-9 by the same rule, so that what drifts under a small force finds what stops it. In the first
- * round it searches along du by `residual`, in the second by `work` and so on: what one of them
- * cycles in the other may leave. If it fails too, the next round goes on from the end of the part
- * after which |r| was smaller, unless that is not finite. M holds what moves freely and never
- * enters r: what converged is in balance without it.
+ * 1e-9 by the same rule, so that what drifts under a small force finds what stops it. It searches
+ * along du by `residual` and `work` in turn, in the first round by the one that was not chosen:
+ * what one of them cycles in the other may leave (`none` stays). If it fails too, the next round
+ * goes on from the end of the part after which |r| was smaller, unless that is not finite. M holds
+ * what moves freely and never enters r: what converged is in balance without it.
  *
  * *Balance:* before the first and after every iteration a hook may move u to where forces on what
  * moves freely balance, 6 times at most: no tangent knows of contact that is lost.
