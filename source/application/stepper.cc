@@ -62,6 +62,8 @@ Stepper<dim>::attempt()
           return attempt;
         }
     }
+  if (!model.is_moving())
+    require_small_rotations(problem, balances, model.state(), time);
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.shift(), problem.communicator());
   if (!model.is_moving())

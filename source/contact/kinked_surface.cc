@@ -73,11 +73,37 @@ KinkedSurface<dim>::concerns(const ContactPair &pair, const GridCell<dim> &cell)
 }
 
 template <int dim>
+dealii::Point<dim>
+KinkedSurface<dim>::on_surface(const ContactPair &pair, const dealii::Point<dim> &x,
+                               const dealii::Tensor<1, dim> &direction, const double size) const
+{
+  constexpr unsigned int max_steps  = 8;
+  const auto             difference = [&](const double t) {
+    return distances.value(pair.a, x + t * direction) - distances.value(pair.b, x + t * direction);
+  };
+  const double tolerance = 1e-9 * size;
+  double       t = 0., value = difference(t);
+  double       next = -0.5 * value; // psi grows by 2 where the bodies face each other
+  for (unsigned int step = 0; step < max_steps && std::abs(value) > tolerance; ++step)
+    {
+      const double at_next = difference(next);
+      const double slope   = (at_next - value) / (next - t);
+      t                    = next;
+      value                = at_next;
+      next                 = t - value / slope;
+      if (!(std::abs(next) <= size))
+        return x;
+    }
+  return std::abs(value) <= tolerance ? x + t * direction : x;
+}
+
+template <int dim>
 void
 KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
                            const dealii::Point<dim> &lower, const unsigned int depth)
 {
   constexpr unsigned int          least = dim == 2 ? 2 : 1, most = dim == 2 ? 8 : 4;
+  constexpr unsigned int          smallest = dim == 2 ? 7 : 4;
   static const LagrangeBasis<dim> linear(1), quadratic(2);
   const double                    size = std::ldexp(cell.size, -int(depth));
   const auto                      place
@@ -122,9 +148,14 @@ KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
   const CellPoints<dim> surface = rules.rules(scaled.data(), size).surface;
   for (unsigned int q = 0; q < surface.points.size(); ++q)
     {
-      Piece piece{place(surface.points[q]), surface.weights[q], {}, {}, 0, {}};
+      Piece piece{on_surface(pair, place(surface.points[q]), surface.normals[q], size),
+                  surface.weights[q],
+                  {},
+                  {},
+                  0,
+                  {}};
       // The smallest points lie next to the kinks: a corner may carry a force alone.
-      piece.group = depth < most / 2 ? 0 : depth < most - 1 ? 1 : 2;
+      piece.group = depth < most / 2 ? 0 : depth < smallest ? 1 : 2;
       piece.n_a   = distances.normal(pair.a, piece.x);
       piece.n_b   = distances.normal(pair.b, piece.x);
       for (unsigned int d = 0; d < dim; ++d)

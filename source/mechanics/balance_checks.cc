@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/mechanics/balance_checks.h>
+#include <scree/mechanics/existence.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,6 +22,8 @@ constexpr double told_imbalance = 1e-2;
 constexpr double no_force = 1e-11;
 /** Of the result: the error of linear kinematics that is told. */
 constexpr double largest_rotation_error = 0.01;
+/** Of a body that only contact holds: the angle that ends the run on a fixed geometry. */
+constexpr double largest_rotation = 0.8;
 
 /** Where the imbalance comes from, and what helps. */
 struct Explanation
@@ -151,6 +154,29 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
 
 template <int dim>
 void
+require_small_rotations(const DiscreteProblem<dim>          &problem,
+                        const std::vector<BodyBalance<dim>> &balances, const State<dim> &state,
+                        const double time)
+{
+  std::vector<bool> is_free(problem.bodies.size(), false);
+  for (const FreeMotion &motion : problem.equilibrium().free_bodies())
+    is_free[motion.body] = true;
+  for (const BodyBalance<dim> &balance : balances)
+    if (is_free[balance.body] && balance.rotation > largest_rotation)
+      {
+        require_equilibrium_exists(problem, state, time);
+        const Body<dim> &body = problem.bodies[balance.body];
+        throw UserError(
+          body.path,
+          "the body '" + body.name + "' has turned by "
+            + short_number(balance.rotation * 180. / M_PI) + " degrees at time "
+            + short_number(time) + ", but on a fixed geometry rotations are taken as small",
+          "set Moving geometry/Update = every step, or hold the body against turning");
+      }
+}
+
+template <int dim>
+void
 warn_of_rotations(const DiscreteProblem<dim>              &problem,
                   const std::vector<BodyBalance<dim>>     &balances,
                   const typename Equilibrium<dim>::Vector &u, const double time, RunLog &run_log)
@@ -184,12 +210,15 @@ warn_of_rotations(const DiscreteProblem<dim>              &problem,
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template std::vector<BodyBalance<dim>> require_balance(                                     \
-    const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &, const NewtonParameters &, \
-    const double, RunLog &);                                                                  \
-  template void warn_of_rotations(const DiscreteProblem<dim> &,                               \
-                                  const std::vector<BodyBalance<dim>> &,                      \
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template std::vector<BodyBalance<dim>> require_balance(                                          \
+    const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &, const NewtonParameters &,      \
+    const double, RunLog &);                                                                       \
+  template void require_small_rotations(const DiscreteProblem<dim> &,                              \
+                                        const std::vector<BodyBalance<dim>> &, const State<dim> &, \
+                                        const double);                                             \
+  template void warn_of_rotations(const DiscreteProblem<dim> &,                                    \
+                                  const std::vector<BodyBalance<dim>> &,                           \
                                   const Equilibrium<dim>::Vector &, const double, RunLog &);
 
 SCREE_INSTANTIATE(2)

@@ -42,6 +42,18 @@ edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
     result.push_back(-n);
   return result;
 }
+
+/** Whether the bodies face each other where they are apart, by more than the side of a box faces
+ * the floor that it stands on. */
+template <int dim>
+bool
+can_meet(const ContactPoint<dim> &point)
+{
+  constexpr double touching = 0.02, facing = 0.3; // cells, cosine
+  const auto       from_a = point.position - point.feet[0], from_b = point.position - point.feet[1];
+  return point.initial_gap < touching * point.cell_size
+         || -(from_a * from_b) > facing * from_a.norm() * from_b.norm();
+}
 } // namespace
 
 template <int dim>
@@ -63,7 +75,7 @@ FreeBodies<dim>::unbalanced(const Coordinates &resultants) const
   Coordinates               entries, column;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     if (const auto &point = contact.points()[i];
-        nearest[point.pair] > nearly || distance(i) <= nearly)
+        (nearest[point.pair] > nearly || distance(i) <= nearly) && can_meet(point))
       for (const auto &edge : edges_of_cone<dim>(contact.pairs()[point.pair].law, point.normal))
         {
           find_column(point, edge, column);

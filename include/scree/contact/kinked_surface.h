@@ -44,6 +44,11 @@ private:
   void divide(const ContactPair &pair, const GridCell<dim> &cell, const dealii::Point<dim> &lower,
               const unsigned int depth);
 
+  /** The point of phi_a = phi_b next to x along a unit direction, at most `size` away, else x: in
+   * the smallest parts the interpolant misses a face by a tenth of their size. */
+  dealii::Point<dim> on_surface(const ContactPair &pair, const dealii::Point<dim> &x,
+                                const dealii::Tensor<1, dim> &direction, const double size) const;
+
   std::vector<Piece> joined_pieces() const;
   /** The quadrature points of a joined piece, of the same weights. */
   std::vector<dealii::Point<dim>> places(const Piece &piece) const;

@@ -22,6 +22,20 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
                 const NewtonParameters &newton, const double time, RunLog &run_log);
 
 /**
+ * On a fixed geometry: that no body that only contact holds has turned by more than 0.8. Linear
+ * kinematics lets one that tips over sink into what it stands on until something beside it bears.
+ * Collective.
+ *
+ * @param balances of require_balance()
+ * @param state    at the start of the step
+ * @throws UserError where one has, that no equilibrium exists if none does
+ */
+template <int dim>
+void require_small_rotations(const DiscreteProblem<dim>          &problem,
+                             const std::vector<BodyBalance<dim>> &balances, const State<dim> &state,
+                             const double time);
+
+/**
  * On a fixed geometry: warns of each body that turned too far for linear kinematics. With the angle
  * theta and the moments M of the forces on it, the work M theta^2/2 on the second-order motion,
  * which linear kinematics does not have, is above 1 % of the stored energy. Collective.
