@@ -2,6 +2,7 @@
 #include <scree/contact/contact_reach.h>
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/output/run_report.h>
+#include <scree/solver/blas.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -56,6 +57,9 @@ void
 RunReport<dim>::set_up(const DiscreteProblem<dim> &problem, const bool pairs_change)
 {
   Log &log = run_log.log;
+  if (const std::string kernels = outdated_blas_kernels(); !kernels.empty())
+    log.line("OpenBLAS does not know this processor and takes the kernels of " + kernels
+             + ": with OPENBLAS_CORETYPE=Haswell in the environment linear solvers are faster");
   log.line("Grid: " + std::to_string(problem.grid.triangulation().n_global_active_cells())
            + " cells, finest edge " + short_number(problem.grid.finest_size()));
   log.line("Unknowns: " + std::to_string(problem.fields.n_dofs()) + " of degree "
