@@ -40,7 +40,7 @@ GhostPenalty<dim>::GhostPenalty(const Fields<dim> &fields)
 
 template <int dim>
 dealii::FullMatrix<double>
-GhostPenalty<dim>::matrix(const GhostFace &face)
+GhostPenalty<dim>::matrix(const GhostFace &face) const
 {
   const auto &cell     = fields.grid.cells()[fields.cells()[face.cell].grid_cell];
   const auto &neighbor = fields.grid.cells()[fields.cells()[face.neighbor].grid_cell];
@@ -63,7 +63,7 @@ GhostPenalty<dim>::matrix(const GhostFace &face)
 
 template <int dim>
 typename GhostPenalty<dim>::Block
-GhostPenalty<dim>::block(const GhostFace &face)
+GhostPenalty<dim>::block(const GhostFace &face) const
 {
   const unsigned int        n     = fields.basis.n_nodes;
   const auto                jumps = matrix(face);

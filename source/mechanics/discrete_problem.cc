@@ -1,5 +1,7 @@
 #include <scree/mechanics/discrete_problem.h>
+#include <scree/mechanics/incremental_kinematics.h>
 #include <scree/mechanics/material_update.h>
+#include <scree/mechanics/total_kinematics.h>
 
 namespace scree
 {
@@ -25,12 +27,12 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
       return predictor.expected_increment(state.bodies[b], b, x, step_size);
     };
   typename Bulk<dim>::Vector ratios;
-  if (problem.step_start)
+  if (problem.is_moving())
     ratios = problem.bulk.nodal_secant_ratios();
-  return ContactPoints<dim>(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
-                            problem.shift(), prediction,
-                            problem.step_start ? &problem.step_start->displacement() : nullptr,
-                            problem.step_start ? &ratios : nullptr);
+  return ContactPoints<dim>(
+    problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs, problem.shift(),
+    prediction, problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
+    problem.is_moving() ? &ratios : nullptr);
 }
 } // namespace
 
@@ -41,8 +43,9 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                     [&]() { return contact_points(problem, state, step_size); }))
     , equilibrium(timed(problem.timings, "linear assembly",
                         [&]() {
-                          return Equilibrium<dim>(problem.fields, problem.bodies, problem.bulk,
-                                                  problem.boundary_terms, contact);
+                          return Equilibrium<dim>(problem.fields, problem.bodies,
+                                                  *problem.kinematics, problem.boundary_terms,
+                                                  contact);
                         }))
     , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
              equilibrium, contact, problem.timings)
@@ -67,18 +70,12 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
                    }))
     , quadrature(timed(timings, "quadrature",
                        [&]() { return CutQuadrature<dim>(fields, level_set_nodes, bodies); }))
-    , step_start(is_moving()
-                   ? timed(timings, "material points", [&]() { return start_of_step(state); })
-                   : nullptr)
-    , bulk(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
-                 [&]() {
-                   return Bulk<dim>(fields, quadrature, bodies, parameters.ghost_penalty,
-                                    step_start.get());
-                 }))
+    , kinematics(make_kinematics(state, timings))
+    , bulk(kinematics->bulk())
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
                              return BoundaryTerms<dim>(fields, level_set_nodes, quadrature, bodies,
-                                                       bulk, state.time);
+                                                       *kinematics);
                            }))
     , timings(timings)
 {
@@ -86,7 +83,23 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
 }
 
 template <int dim>
-std::unique_ptr<StepStart<dim>>
+std::unique_ptr<const Kinematics<dim>>
+DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
+{
+  if (!is_moving())
+    return timed(timings, "quadrature", [&]() {
+      return std::make_unique<TotalKinematics<dim>>(fields, quadrature, bodies,
+                                                    parameters.ghost_penalty);
+    });
+  auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
+  return timed(timings, "history at quadrature points", [&]() {
+    return std::make_unique<IncrementalKinematics<dim>>(
+      fields, quadrature, bodies, parameters.ghost_penalty, std::move(start), state.time);
+  });
+}
+
+template <int dim>
+std::unique_ptr<const StepStart<dim>>
 DiscreteProblem<dim>::start_of_step(State<dim> &state) const
 {
   const MovingGeometryParameters &moving = parameters.moving;
@@ -94,7 +107,7 @@ DiscreteProblem<dim>::start_of_step(State<dim> &state) const
     distribute_points(fields, moving, state.points);
   else
     state.points = seed_points(fields, level_set_nodes, bodies, quadrature, moving);
-  return std::make_unique<StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
+  return std::make_unique<const StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
 }
 
 template <int dim>

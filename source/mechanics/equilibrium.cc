@@ -15,16 +15,17 @@ namespace scree
 {
 template <int dim>
 Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                              Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
-                              ContactPoints<dim> &contact)
-    : fields(fields)
+                              const Kinematics<dim>    &kinematics,
+                              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact)
+    : kinematics(kinematics)
+    , fields(fields)
     , bodies(bodies)
-    , bulk(bulk)
+    , bulk(kinematics.bulk())
     , boundary_terms(boundary_terms)
     , contact(contact)
-    , supports(fields, bodies, bulk.step_start())
+    , supports(fields, bodies, kinematics)
     , rigid(fields, bodies, contact)
-    , free(fields, bodies, supports, boundary_terms, contact, bulk.step_start() != nullptr)
+    , free(fields, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite())
     , seen_by_bulk(fields)
 {
   set_up_matrices();
@@ -35,7 +36,7 @@ Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
   for (const auto &region : boundary_terms.regions())
-    accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
+    accepted_tractions.emplace_back(region.follows_surface ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
   set_up_artificial_mass();
 }
@@ -74,8 +75,7 @@ Equilibrium<dim>::set_up_matrices()
   bulk.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   start_forces.reinit(fields.owned(), communicator);
-  if (!is_linear_but_for_contact())
-    stiffness.vmult(start_forces, bulk.step_start()->displacement());
+  stiffness.vmult(start_forces, kinematics.start_displacement());
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   diagonal.reinit(fields.owned(), communicator);
@@ -123,7 +123,7 @@ template <int dim>
 void
 Equilibrium<dim>::set_prescribed(Vector &u) const
 {
-  supports.set(u, time, start_time);
+  supports.set(u, time);
   rigid.set(u, time);
 }
 
@@ -149,11 +149,10 @@ template <int dim>
 void
 Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
 {
-  // Contact stencils have no hanging nodes, laws in increments see them.
-  if (is_linear_but_for_contact())
-    ghosted = u;
-  else
-    ghosted = with_ghosts(u);
+  // Contact stencils have no hanging nodes, stresses see them.
+  scratch = u;
+  fields.hanging_constraints().distribute(scratch);
+  ghosted = scratch;
   scratch = u;
   scratch.scale(diagonal);
   stiffness_times_displacement = scratch.l2_norm();
@@ -177,13 +176,10 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
       seen_by_bulk.gather(ghosted);
       stiffness.vmult(internal_forces, u);
     }
-  if (!is_linear_but_for_contact())
-    {
-      internal_forces += start_forces;
-      bulk.add_internal_forces(seen_by_bulk, internal_forces);
-      boundary_terms.add_internal_forces(seen_by_bulk, time, internal_forces);
-      internal_forces.compress(dealii::VectorOperation::add);
-    }
+  internal_forces += start_forces;
+  bulk.add_internal_forces(seen_by_bulk, internal_forces);
+  boundary_terms.add_internal_forces(seen_by_bulk, time, internal_forces);
+  internal_forces.compress(dealii::VectorOperation::add);
   r = loads;
   r -= internal_forces;
   r += contact_forces;
@@ -318,14 +314,8 @@ template <int dim>
 double
 Equilibrium<dim>::round_off() const
 {
-  double result = 1e-15 * stiffness_times_displacement;
-  if (bulk.step_start() != nullptr)
-    {
-      // Displacements since the beginning are differences of positions.
-      const auto [lower, upper] = fields.grid.box().get_boundary_points();
-      result += 1e-16 * std::max(lower.norm(), upper.norm()) * diagonal.l2_norm();
-    }
-  return result;
+  return 1e-15 * stiffness_times_displacement
+         + 1e-16 * kinematics.position_scale() * diagonal.l2_norm();
 }
 
 template <int dim>
@@ -417,9 +407,9 @@ Equilibrium<dim>::tangent_changes() const
 
 template <int dim>
 bool
-Equilibrium<dim>::is_linear_but_for_contact() const
+Equilibrium<dim>::is_linear_elsewhere() const
 {
-  return bulk.step_start() == nullptr;
+  return bulk.is_linear() && boundary_terms.is_linear();
 }
 
 template <int dim>

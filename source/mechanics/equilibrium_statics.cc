@@ -204,7 +204,7 @@ template <int dim>
 bool
 Equilibrium<dim>::turns_infinitesimally() const
 {
-  return is_second_attempt && !is_linear_but_for_contact() && !free_bodies().empty();
+  return is_second_attempt && kinematics.rotations_are_finite() && !free_bodies().empty();
 }
 
 template <int dim>

@@ -24,13 +24,6 @@ Equilibrium<dim>::work_of_multipliers(const Vector &u)
 }
 
 template <int dim>
-bool
-Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &region) const
-{
-  return region.condition->kind().law.follows_surface && bulk.step_start() != nullptr;
-}
-
-template <int dim>
 double
 Equilibrium<dim>::work_of_pressures(const PointEvaluator<dim> &u) const
 {
@@ -38,7 +31,7 @@ Equilibrium<dim>::work_of_pressures(const PointEvaluator<dim> &u) const
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
       const auto &region = boundary_terms.regions()[i];
-      if (!is_following_pressure(region))
+      if (!region.follows_surface)
         continue;
       const auto tractions = boundary_terms.tractions(i, u, time);
       for (unsigned int q = 0; q < tractions.size(); ++q)
@@ -165,18 +158,11 @@ Equilibrium<dim>::store_energies(const PointEvaluator<dim> &u)
                 * (response.pressure * response.pressure / contact.eps_n(i)
                    + response.tau.norm_square() / contact.eps_t(i));
     }
-  current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
-  const auto of_bulk        = bulk.work(u);
-  current_energies.strain   = of_bulk.energy;
-  current_energies.boundary = boundary_terms.energy(u, time);
-  if (is_linear_but_for_contact())
-    current_energies.ghost_penalty = bulk.ghost_energy(u);
-  else
-    {
-      PointEvaluator<dim> total = bulk.step_start()->displacement_field();
-      total += u;
-      current_energies.ghost_penalty = bulk.ghost_energy(total);
-    }
+  current_energies.contact       = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
+  const auto of_bulk             = bulk.work(u);
+  current_energies.strain        = of_bulk.energy;
+  current_energies.boundary      = boundary_terms.energy(u, time);
+  current_energies.ghost_penalty = bulk.ghost_energy(kinematics.whole_displacement(u));
   return of_bulk.dissipation;
 }
 
@@ -192,7 +178,6 @@ void
 Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
                              const Energies &energies, const DrivingForces<dim> *driving)
 {
-  start_time = time;
   Vector r(u);
   take_as_accepted(time, u, history, r);
   DrivingForces<dim> unloaded;
@@ -296,7 +281,7 @@ Equilibrium<dim>::remember_conditions(const PointEvaluator<dim> &u)
   for (unsigned int i = 0; i < boundary_terms.regions().size(); ++i)
     {
       const auto &region      = boundary_terms.regions()[i];
-      const bool  is_pressure = is_following_pressure(region);
+      const bool  is_pressure = region.follows_surface;
       if (!is_pressure && !region.condition->prescribes_displacement())
         continue;
       const auto tractions = boundary_terms.tractions(i, u, time);
@@ -316,7 +301,6 @@ Equilibrium<dim>::remember_conditions(const PointEvaluator<dim> &u)
 
 #define SCREE_INSTANTIATE(dim)                                                                            \
   template double Equilibrium<dim>::work_of_multipliers(const Vector &);                                  \
-  template bool   Equilibrium<dim>::is_following_pressure(const BoundaryRegion<dim> &) const;             \
   template double Equilibrium<dim>::work_of_pressures(const PointEvaluator<dim> &) const;                 \
   template double Equilibrium<dim>::work_on_prescribed(const std::vector<DrivenPoint<dim>> &)             \
     const;                                                                                                \

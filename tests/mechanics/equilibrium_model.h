@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/linear_prediction.h>
+#include <scree/mechanics/total_kinematics.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
@@ -53,11 +54,12 @@ struct EquilibriumModel
       : input(text)
       , cut(input.bodies, communicator)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
+      , kinematics(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
+      , bulk(kinematics.bulk())
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
-      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
+      , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
       , linear_solver(input.linear, dim, cut.fields->basis.degree)
   {
     state.displacement = zero_displacement(*cut.fields);
@@ -140,7 +142,8 @@ struct EquilibriumModel
   EquilibriumInput<dim> input;
   CutBodies<dim>        cut;
   CutQuadrature<dim>    quadrature;
-  Bulk<dim>             bulk;
+  TotalKinematics<dim>  kinematics;
+  const Bulk<dim>      &bulk;
   BoundaryTerms<dim>    boundary_terms;
   ContactPoints<dim>    contact;
   Equilibrium<dim>      equilibrium;

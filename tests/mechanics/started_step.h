@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/mechanics/incremental_kinematics.h>
 #include <scree/points/seeding.h>
 
 #include <functional>
@@ -25,12 +26,16 @@ struct StartedStep
       , cut(input.bodies)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
       , points(moved(law, displacement, plastic_strain))
-      , start(*cut.fields, quadrature, cut.bodies, points, parameters)
-      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
+      , made_start(std::make_unique<const StepStart<dim>>(*cut.fields, quadrature, cut.bodies,
+                                                          points, parameters))
+      , start(*made_start)
+      , kinematics(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty,
+                   std::move(made_start), 0.)
+      , bulk(kinematics.bulk())
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
-      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
+      , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
   {
   }
 
@@ -86,15 +91,17 @@ struct StartedStep
     return u;
   }
 
-  EquilibriumInput<dim>    input;
-  CutBodies<dim>           cut;
-  MovingGeometryParameters parameters;
-  CutQuadrature<dim>       quadrature;
-  MaterialPoints<dim>      points;
-  StepStart<dim>           start;
-  Bulk<dim>                bulk;
-  BoundaryTerms<dim>       boundary_terms;
-  ContactPoints<dim>       contact;
-  Equilibrium<dim>         equilibrium;
+  EquilibriumInput<dim>                 input;
+  CutBodies<dim>                        cut;
+  MovingGeometryParameters              parameters;
+  CutQuadrature<dim>                    quadrature;
+  MaterialPoints<dim>                   points;
+  std::unique_ptr<const StepStart<dim>> made_start; //!< now of the kinematics
+  const StepStart<dim>                 &start;
+  IncrementalKinematics<dim>            kinematics;
+  const Bulk<dim>                      &bulk;
+  BoundaryTerms<dim>                    boundary_terms;
+  ContactPoints<dim>                    contact;
+  Equilibrium<dim>                      equilibrium;
 };
 } // namespace scree

@@ -39,7 +39,7 @@ public:
    * The matrix of a face for one displacement component; first the nodes of the cell, then those
    * of the neighbour.
    */
-  dealii::FullMatrix<double> matrix(const GhostFace &face);
+  dealii::FullMatrix<double> matrix(const GhostFace &face) const;
 
   /** The same on the distinct nodes of the two cells. */
   struct Block
@@ -47,7 +47,7 @@ public:
     std::vector<DofIndex>      nodes;
     dealii::FullMatrix<double> matrix;
   };
-  Block block(const GhostFace &face);
+  Block block(const GhostFace &face) const;
 
 private:
   dealii::FullMatrix<double> unit_matrix(const unsigned int            face,
@@ -57,6 +57,6 @@ private:
   const Fields<dim>     &fields;
   std::vector<GhostFace> ghost_faces;
   /** Matrices for unit cell edge by (face, position in a coarser neighbour). */
-  std::map<std::pair<unsigned int, unsigned int>, dealii::FullMatrix<double>> unit_matrices;
+  mutable std::map<std::pair<unsigned int, unsigned int>, dealii::FullMatrix<double>> unit_matrices;
 };
 } // namespace scree
