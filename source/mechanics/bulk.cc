@@ -11,7 +11,7 @@ namespace scree
 {
 namespace
 {
-/** Bodies that flow keep this part of the ghost penalty, for the condition number. */
+/** Cells that flow keep this part of the stiffness of small cuts, for the condition number. */
 constexpr double smallest_ratio = 1e-3;
 
 std::vector<bool>
@@ -26,7 +26,7 @@ positive(const std::vector<double> &shares)
 
 template <int dim>
 Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+                const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
                 const std::vector<double> &projected_shares)
     : fields(fields)
     , quadrature(quadrature)
@@ -34,13 +34,12 @@ Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
     , projected_shares(projected_shares)
     , divergence(fields, quadrature, positive(projected_shares))
     , secant_ratios(fields.cells().size(), 1.)
-    , gamma(ghost_penalty_factor)
-    , ghost_penalty(fields)
+    , small_cuts(small_cuts)
 {
 }
 
 template <int dim>
-typename Bulk<dim>::CellRule
+CellRule<dim>
 Bulk<dim>::rule(const unsigned int active_cell) const
 {
   const ActiveCell &cell = fields.cells()[active_cell];
@@ -57,21 +56,7 @@ template <int dim>
 void
 Bulk<dim>::add_to_matrix(Matrix &matrix) const
 {
-  if (gamma == 0.)
-    return;
-  dealii::FullMatrix<double> block;
-  for (const GhostFace &face : ghost_penalty.faces())
-    {
-      const double factor = ghost_stiffness(face);
-      const auto   jumps  = ghost_penalty.block(face);
-      block.reinit(jumps.nodes.size() * dim, jumps.nodes.size() * dim);
-      for (unsigned int i = 0; i < jumps.nodes.size(); ++i)
-        for (unsigned int j = 0; j < jumps.nodes.size(); ++j)
-          for (unsigned int d = 0; d < dim; ++d)
-            block(i * dim + d, j * dim + d) = factor * jumps.matrix(i, j);
-      fields.hanging_constraints().distribute_local_to_global(
-        block, unknowns_of_nodes<dim>(jumps.nodes.data(), jumps.nodes.size()), matrix);
-    }
+  small_cuts.add_to_matrix(cut_stiffness(), matrix);
 }
 
 template <int dim>
@@ -90,7 +75,7 @@ template <int dim>
 void
 Bulk<dim>::set_reference_volumes(const unsigned int active_cell, std::vector<double> &volumes) const
 {
-  const CellRule points = rule(active_cell);
+  const CellRule<dim> points = rule(active_cell);
   volumes.resize(points.n_points);
   for (unsigned int q = 0; q < points.n_points; ++q)
     volumes[q] = points.weights[q] * points.weight_scale;
@@ -128,8 +113,8 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
       const ActiveCell &cell = fields.cells()[a];
       if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
         continue;
-      const CellRule points = rule(a);
-      const double   size   = fields.grid.cells()[cell.grid_cell].size;
+      const CellRule<dim> points = rule(a);
+      const double        size   = fields.grid.cells()[cell.grid_cell].size;
       set_reference_volumes(a, reference_volumes);
       double volume = 0., reference_volume = 0.;
       cell_load      = 0.;
@@ -161,44 +146,36 @@ template <int dim>
 std::vector<std::vector<DofIndex>>
 Bulk<dim>::couplings() const
 {
-  const unsigned int                 n = fields.basis.n_nodes;
   std::vector<std::vector<DofIndex>> result;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    result.emplace_back(fields.nodes(a), fields.nodes(a) + n);
-  for (const GhostFace &face : ghost_penalty.faces())
+    result.emplace_back(fields.nodes(a), fields.nodes(a) + fields.basis.n_nodes);
+  for (const auto &nodes : small_cuts.couplings())
+    result.push_back(nodes);
+  return result;
+}
+
+template <int dim>
+CutStiffness
+Bulk<dim>::cut_stiffness() const
+{
+  CutStiffness result;
+  for (const auto &body : bodies)
     {
-      std::vector<DofIndex> nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
-      nodes.insert(nodes.end(), fields.nodes(face.neighbor), fields.nodes(face.neighbor) + n);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      result.push_back(nodes);
+      const double mu     = body.is_rigid() ? 0. : body.material->shear_modulus();
+      const double lambda = body.is_rigid() ? 0. : body.material->lame_lambda();
+      result.of_bodies.push_back(2. * mu + std::min(lambda, IsotropicModuli::largest_ratio * mu));
     }
+  for (const double secant : secant_ratios)
+    result.ratios.push_back(std::max(smallest_ratio, secant * secant));
   return result;
 }
 
 template <int dim>
 double
-Bulk<dim>::ghost_energy(const PointEvaluator<dim> &u) const
+Bulk<dim>::energy_of_small_cuts(const PointEvaluator<dim> &u) const
 {
-  const unsigned int n      = fields.basis.n_nodes;
-  double             energy = 0.;
-  if (gamma > 0.)
-    for (const GhostFace &face : ghost_penalty.faces())
-      {
-        const auto   jumps  = ghost_penalty.matrix(face);
-        const double factor = ghost_stiffness(face);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            dealii::Vector<double> nodal(2 * n);
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                nodal(i)     = u.nodal_values(face.cell)[i * dim + d];
-                nodal(n + i) = u.nodal_values(face.neighbor)[i * dim + d];
-              }
-            energy += 0.5 * factor * jumps.matrix_norm_square(nodal);
-          }
-      }
-  return dealii::Utilities::MPI::sum(energy, fields.grid.communicator());
+  return dealii::Utilities::MPI::sum(small_cuts.energy(cut_stiffness(), u),
+                                     fields.grid.communicator());
 }
 
 template <int dim>
@@ -208,7 +185,7 @@ Bulk<dim>::volumes() const
   std::vector<double> volume(bodies.size(), 0.);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule points = rule(a);
+      const CellRule<dim> points = Bulk<dim>::rule(a);
       for (unsigned int q = 0; q < points.n_points; ++q)
         volume[fields.cells()[a].body] += points.weights[q] * points.weight_scale;
     }
@@ -228,8 +205,8 @@ Bulk<dim>::add_lumped_volumes(Vector &volumes, const std::vector<double> &factor
       if (factor == 0.)
         continue;
       // Equal shares: those of the basis functions are not all positive for degree 2.
-      const CellRule points = rule(a);
-      double         volume = 0.;
+      const CellRule<dim> points = rule(a);
+      double              volume = 0.;
       for (unsigned int q = 0; q < points.n_points; ++q)
         volume += points.weights[q] * points.weight_scale;
       lumped = factor * volume / n;
@@ -246,17 +223,6 @@ Bulk<dim>::projected_lambda(const unsigned int body) const
   return std::min(std::max(0., material.lame_lambda()),
                   projected_shares[body]
                     * (material.lame_lambda() + 2. * material.shear_modulus() / dim));
-}
-
-template <int dim>
-double
-Bulk<dim>::ghost_stiffness(const GhostFace &face) const
-{
-  const auto  &material = *bodies[fields.cells()[face.cell].body].material;
-  const double mu       = material.shear_modulus();
-  const double secant   = std::min(secant_ratios[face.cell], secant_ratios[face.neighbor]);
-  return gamma * (2. * mu + std::min(material.lame_lambda(), IsotropicModuli::largest_ratio * mu))
-         * std::max(smallest_ratio, secant * secant);
 }
 
 template <int dim>

@@ -70,6 +70,7 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
                    }))
     , quadrature(timed(timings, "quadrature",
                        [&]() { return CutQuadrature<dim>(fields, level_set_nodes, bodies); }))
+    , small_cuts(make_small_cut_treatment(fields, parameters.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
@@ -88,13 +89,12 @@ DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
 {
   if (!is_moving())
     return timed(timings, "quadrature", [&]() {
-      return std::make_unique<TotalKinematics<dim>>(fields, quadrature, bodies,
-                                                    parameters.ghost_penalty);
+      return std::make_unique<TotalKinematics<dim>>(fields, quadrature, bodies, *small_cuts);
     });
   auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
   return timed(timings, "history at quadrature points", [&]() {
-    return std::make_unique<IncrementalKinematics<dim>>(
-      fields, quadrature, bodies, parameters.ghost_penalty, std::move(start), state.time);
+    return std::make_unique<IncrementalKinematics<dim>>(fields, quadrature, bodies, *small_cuts,
+                                                        std::move(start), state.time);
   });
 }
 

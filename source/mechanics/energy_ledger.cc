@@ -197,7 +197,7 @@ EnergyLedger<dim>::store_energies(const EvaluatedState<dim> &state)
   current_energies.strain   = of_bulk.energy;
   current_energies.boundary = boundary_terms.energy(state.field, state.time);
   current_energies.ghost_penalty
-    = kinematics.bulk().ghost_energy(kinematics.whole_displacement(state.field));
+    = kinematics.bulk().energy_of_small_cuts(kinematics.whole_displacement(state.field));
   return of_bulk.dissipation;
 }
 

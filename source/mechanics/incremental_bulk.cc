@@ -41,9 +41,9 @@ template <int dim>
 IncrementalBulk<dim>::IncrementalBulk(const Fields<dim>            &fields,
                                       const CutQuadrature<dim>     &quadrature,
                                       const std::vector<Body<dim>> &bodies,
-                                      const double                  ghost_penalty_factor,
+                                      const SmallCutTreatment<dim> &small_cuts,
                                       const StepStart<dim>         &start)
-    : Bulk<dim>(fields, quadrature, bodies, ghost_penalty_factor, shares(bodies))
+    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
     , start(start)
 {
   set_up_points();
@@ -60,7 +60,7 @@ IncrementalBulk<dim>::set_up_points()
   std::vector<PointInCell<dim>> points;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule cell = rule(a);
+      const CellRule<dim> cell = rule(a);
       first_point.push_back(points.size());
       first_gradient.push_back(cut_gradients.size());
       for (unsigned int q = 0; q < cell.n_points; ++q)
@@ -85,8 +85,8 @@ IncrementalBulk<dim>::find_secant_ratios()
   std::vector<std::vector<double>> of_cells(fields.cells().size(), {1.});
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule points = rule(a);
-      double         volume = 0., alpha = 0.;
+      const CellRule<dim> points = rule(a);
+      double              volume = 0., alpha = 0.;
       for (unsigned int q = 0; q < points.n_points; ++q)
         {
           volume += points.weights[q];
@@ -137,14 +137,14 @@ template <int dim>
 void
 IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) const
 {
-  const CellRule     points = rule(active_cell);
-  const unsigned int n      = points.n_points;
-  const unsigned int body   = fields.cells()[active_cell].body;
-  const std::size_t  first  = first_point[active_cell];
-  cell.active_cell          = active_cell;
-  cell.n_points             = n;
-  cell.mode_values          = mode_values.data() + first * VolumeModes<dim>::n_max;
-  cell.starts               = starts.data() + first;
+  const CellRule<dim> points = rule(active_cell);
+  const unsigned int  n      = points.n_points;
+  const unsigned int  body   = fields.cells()[active_cell].body;
+  const std::size_t   first  = first_point[active_cell];
+  cell.active_cell           = active_cell;
+  cell.n_points              = n;
+  cell.mode_values           = mode_values.data() + first * VolumeModes<dim>::n_max;
+  cell.starts                = starts.data() + first;
   cell.weights.resize(n);
   cell.increments.resize(n);
   cell.responses.resize(n);
@@ -185,10 +185,10 @@ IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &
   std::vector<DofIndex>  unknowns;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule cell  = rule(a);
-      const double   scale = cell.weight_scale / fields.cell_size(a);
-      const double  *shape = unit_gradients(a);
-      cell_forces          = 0.;
+      const CellRule<dim> cell  = rule(a);
+      const double        scale = cell.weight_scale / fields.cell_size(a);
+      const double       *shape = unit_gradients(a);
+      cell_forces               = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
         {
           const dealii::Tensor<2, dim> P = cell.weights[q] * scale * piola[first_point[a] + q];
@@ -247,10 +247,10 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
   std::vector<DofIndex>      unknowns;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule cell  = rule(a);
-      const double   scale = cell.weight_scale / std::pow(fields.cell_size(a), 2);
-      const double  *shape = unit_gradients(a);
-      block                = 0.;
+      const CellRule<dim> cell  = rule(a);
+      const double        scale = cell.weight_scale / std::pow(fields.cell_size(a), 2);
+      const double       *shape = unit_gradients(a);
+      block                     = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
         add_stiffness<dim>(tangents[first_point[a] + q], shape, n, cell.weights[q] * scale, block);
       if (projected_shares[fields.cells()[a].body] > 0.)
@@ -303,20 +303,20 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template IncrementalBulk<dim>::IncrementalBulk(const Fields<dim> &, const CutQuadrature<dim> &, \
-                                                 const std::vector<Body<dim>> &, const double,    \
-                                                 const StepStart<dim> &);                         \
-  template const typename IncrementalBulk<dim>::Answers &IncrementalBulk<dim>::answers(           \
-    const PointEvaluator<dim> &, const bool) const;                                               \
-  template void IncrementalBulk<dim>::set_reference_volumes(const unsigned int,                   \
-                                                            std::vector<double> &) const;         \
-  template void IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &, Vector &)  \
-    const;                                                                                        \
-  template void IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &, Matrix &) const;   \
-  template typename IncrementalBulk<dim>::Work IncrementalBulk<dim>::work(                        \
-    const PointEvaluator<dim> &) const;                                                           \
-  template BulkSample<dim> IncrementalBulk<dim>::sample(                                          \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template IncrementalBulk<dim>::IncrementalBulk(                                                \
+    const Fields<dim> &, const CutQuadrature<dim> &, const std::vector<Body<dim>> &,             \
+    const SmallCutTreatment<dim> &, const StepStart<dim> &);                                     \
+  template const typename IncrementalBulk<dim>::Answers &IncrementalBulk<dim>::answers(          \
+    const PointEvaluator<dim> &, const bool) const;                                              \
+  template void IncrementalBulk<dim>::set_reference_volumes(const unsigned int,                  \
+                                                            std::vector<double> &) const;        \
+  template void IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &, Vector &) \
+    const;                                                                                       \
+  template void IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &, Matrix &) const;  \
+  template typename IncrementalBulk<dim>::Work IncrementalBulk<dim>::work(                       \
+    const PointEvaluator<dim> &) const;                                                          \
+  template BulkSample<dim> IncrementalBulk<dim>::sample(                                         \
     const unsigned int, const dealii::Point<dim> &, const PointEvaluator<dim> &) const;
 
 SCREE_INSTANTIATE(2)

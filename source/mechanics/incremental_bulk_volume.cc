@@ -15,7 +15,7 @@ IncrementalBulk<dim>::set_up_modes()
   modes.reserve(fields.n_owned_cells());
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule points = rule(a);
+      const CellRule<dim> points = rule(a);
       weights.resize(points.n_points);
       for (unsigned int q = 0; q < points.n_points; ++q)
         weights[q]
@@ -117,7 +117,7 @@ IncrementalBulk<dim>::add_volume_couplings(const unsigned int          active_ce
   constexpr unsigned int n_max   = VolumeModes<dim>::n_max;
   const unsigned int     n       = fields.basis.n_nodes;
   const unsigned int     n_modes = modes[active_cell].n;
-  const CellRule         cell    = rule(active_cell);
+  const CellRule<dim>    cell    = rule(active_cell);
   const double           scale   = 1. / fields.cell_size(active_cell);
   const double          *shape   = unit_gradients(active_cell);
   // Of each mode: the stress by its volume, the mode's force by F_D, its volume by F_D.
@@ -166,7 +166,7 @@ IncrementalBulk<dim>::cell_volume(const unsigned int         active_cell,
     return result;
   result.is_projected          = true;
   constexpr unsigned int n_max = VolumeModes<dim>::n_max;
-  const CellRule         cell  = rule(active_cell);
+  const CellRule<dim>    cell  = rule(active_cell);
   const double          *shape = unit_gradients(active_cell);
   for (unsigned int q = 0; q < cell.n_points; ++q, shape += fields.basis.n_nodes * dim)
     {
@@ -196,7 +196,7 @@ IncrementalBulk<dim>::volume_derivatives(const unsigned int         active_cell,
   constexpr unsigned int n_max  = VolumeModes<dim>::n_max;
   const unsigned int     n      = fields.basis.n_nodes;
   const unsigned int     body   = fields.cells()[active_cell].body;
-  const CellRule         cell   = rule(active_cell);
+  const CellRule<dim>    cell   = rule(active_cell);
   const double           scale  = 1. / fields.cell_size(active_cell);
   const double          *shape  = unit_gradients(active_cell);
   VolumeDerivatives      result = {};

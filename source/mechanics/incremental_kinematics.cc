@@ -33,17 +33,17 @@ set_increments(const Fields<dim> &fields, const Predictor<dim> &predictor, const
 } // namespace
 
 template <int dim>
-IncrementalKinematics<dim>::IncrementalKinematics(const Fields<dim>            &fields,
-                                                  const CutQuadrature<dim>     &quadrature,
-                                                  const std::vector<Body<dim>> &bodies,
-                                                  const double ghost_penalty_factor,
+IncrementalKinematics<dim>::IncrementalKinematics(const Fields<dim>                    &fields,
+                                                  const CutQuadrature<dim>             &quadrature,
+                                                  const std::vector<Body<dim>>         &bodies,
+                                                  const SmallCutTreatment<dim>         &small_cuts,
                                                   std::unique_ptr<const StepStart<dim>> start,
                                                   const double                          start_time)
     : Kinematics<dim>(start_time)
     , fields(fields)
     , bodies(bodies)
     , start(std::move(start))
-    , incremental_bulk(fields, quadrature, bodies, ghost_penalty_factor, *this->start)
+    , incremental_bulk(fields, quadrature, bodies, small_cuts, *this->start)
 {
 }
 

@@ -29,8 +29,9 @@ shares(const std::vector<Body<dim>> &bodies)
 
 template <int dim>
 LinearBulk<dim>::LinearBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                            const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor)
-    : Bulk<dim>(fields, quadrature, bodies, ghost_penalty_factor, shares(bodies))
+                            const std::vector<Body<dim>> &bodies,
+                            const SmallCutTreatment<dim> &small_cuts)
+    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
 {
 }
 

@@ -8,10 +8,10 @@ template <int dim>
 TotalKinematics<dim>::TotalKinematics(const Fields<dim>            &fields,
                                       const CutQuadrature<dim>     &quadrature,
                                       const std::vector<Body<dim>> &bodies,
-                                      const double                  ghost_penalty_factor)
+                                      const SmallCutTreatment<dim> &small_cuts)
     : Kinematics<dim>(0.)
     , fields(fields)
-    , linear_bulk(fields, quadrature, bodies, ghost_penalty_factor)
+    , linear_bulk(fields, quadrature, bodies, small_cuts)
     , zero(fields.owned(), fields.grid.communicator())
 {
 }

@@ -54,7 +54,8 @@ struct EquilibriumModel
       : input(text)
       , cut(input.bodies, communicator)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , kinematics(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
+      , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
+      , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
@@ -139,17 +140,18 @@ struct EquilibriumModel
             std::sqrt(dealii::Utilities::MPI::sum(norm, communicator))};
   }
 
-  EquilibriumInput<dim> input;
-  CutBodies<dim>        cut;
-  CutQuadrature<dim>    quadrature;
-  TotalKinematics<dim>  kinematics;
-  const Bulk<dim>      &bulk;
-  BoundaryTerms<dim>    boundary_terms;
-  ContactPoints<dim>    contact;
-  Equilibrium<dim>      equilibrium;
-  LinearSolver          linear_solver;
-  State<dim>            state;
-  unsigned int          linear_iterations = 0; //!< of the last system
+  EquilibriumInput<dim>                         input;
+  CutBodies<dim>                                cut;
+  CutQuadrature<dim>                            quadrature;
+  std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
+  TotalKinematics<dim>                          kinematics;
+  const Bulk<dim>                              &bulk;
+  BoundaryTerms<dim>                            boundary_terms;
+  ContactPoints<dim>                            contact;
+  Equilibrium<dim>                              equilibrium;
+  LinearSolver                                  linear_solver;
+  State<dim>                                    state;
+  unsigned int                                  linear_iterations = 0; //!< of the last system
 };
 
 /** Section Contact with one law for all pairs. */

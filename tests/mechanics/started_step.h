@@ -29,8 +29,8 @@ struct StartedStep
       , made_start(std::make_unique<const StepStart<dim>>(*cut.fields, quadrature, cut.bodies,
                                                           points, parameters))
       , start(*made_start)
-      , kinematics(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty,
-                   std::move(made_start), 0.)
+      , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
+      , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts, std::move(made_start), 0.)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
@@ -91,17 +91,18 @@ struct StartedStep
     return u;
   }
 
-  EquilibriumInput<dim>                 input;
-  CutBodies<dim>                        cut;
-  MovingGeometryParameters              parameters;
-  CutQuadrature<dim>                    quadrature;
-  MaterialPoints<dim>                   points;
-  std::unique_ptr<const StepStart<dim>> made_start; //!< now of the kinematics
-  const StepStart<dim>                 &start;
-  IncrementalKinematics<dim>            kinematics;
-  const Bulk<dim>                      &bulk;
-  BoundaryTerms<dim>                    boundary_terms;
-  ContactPoints<dim>                    contact;
-  Equilibrium<dim>                      equilibrium;
+  EquilibriumInput<dim>                         input;
+  CutBodies<dim>                                cut;
+  MovingGeometryParameters                      parameters;
+  CutQuadrature<dim>                            quadrature;
+  MaterialPoints<dim>                           points;
+  std::unique_ptr<const StepStart<dim>>         made_start; //!< now of the kinematics
+  const StepStart<dim>                         &start;
+  std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
+  IncrementalKinematics<dim>                    kinematics;
+  const Bulk<dim>                              &bulk;
+  BoundaryTerms<dim>                            boundary_terms;
+  ContactPoints<dim>                            contact;
+  Equilibrium<dim>                              equilibrium;
 };
 } // namespace scree

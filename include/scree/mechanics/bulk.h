@@ -1,7 +1,8 @@
 #pragma once
 
 #include <scree/discretization/cut_quadrature.h>
-#include <scree/discretization/ghost_penalty.h>
+#include <scree/discretization/small_cut_treatment.h>
+#include <scree/mechanics/cell_rule.h>
 #include <scree/mechanics/projected_divergence.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -24,9 +25,9 @@ struct BulkSample
 
 /**
  * The bulk on cut cells: int sigma : grad v over the physical part, of the kind that a Kinematics
- * needs, plus the ghost penalty gamma (2 mu + min(lambda, 4 mu)) rho s_h(u, v) (theory.md section
- * 6), rho the squared secant ratio of plastic flow, at least 1e-3. The volume change that the
- * materials see is projected on VolumeModes of each cell.
+ * needs, plus the treatment of small cuts for the stiffness (2 mu + min(lambda, 4 mu)) rho, rho the
+ * squared secant ratio of plastic flow, at least 1e-3 (theory.md section 6). The volume change that
+ * the materials see is projected on VolumeModes of each cell.
  */
 template <int dim>
 class Bulk
@@ -37,12 +38,12 @@ public:
 
   /** @param projected_shares of bodies, of a volume change that is replaced by its projection */
   Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-       const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+       const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
        const std::vector<double> &projected_shares);
 
   virtual ~Bulk() = default;
 
-  /** Adds what is linear in u, here the ghost penalty; hanging nodes are condensed. */
+  /** Adds what is linear in u, here the treatment of small cuts; hanging nodes are condensed. */
   virtual void add_to_matrix(Matrix &matrix) const;
 
   /** Whether add_to_matrix() has all of it. */
@@ -95,11 +96,11 @@ public:
   /** The smallest of the cells around each owned node, at its first unknown. */
   Vector nodal_secant_ratios() const;
 
-  /** Which nodes couple, cell by cell and ghost face by ghost face. */
+  /** Which nodes couple: those of cells, and by the treatment of small cuts. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
-  /** Energy of the ghost penalty, summed over the processes. */
-  double ghost_energy(const PointEvaluator<dim> &u) const;
+  /** Energy of the treatment of small cuts at the displacement u_n + u, over all processes. */
+  double energy_of_small_cuts(const PointEvaluator<dim> &u) const;
 
   /** Volume of each body by the cut quadrature, summed over the processes. */
   std::vector<double> volumes() const;
@@ -109,15 +110,8 @@ public:
   void add_lumped_volumes(Vector &volumes, const std::vector<double> &factor_of_body) const;
 
 protected:
-  /** Points and weights of an owned active cell. */
-  struct CellRule
-  {
-    const dealii::Point<dim> *points;
-    const double             *weights;
-    unsigned int              n_points;
-    double                    weight_scale;
-  };
-  CellRule rule(const unsigned int active_cell) const;
+  /** Those of the cut quadrature unless overridden. */
+  virtual CellRule<dim> rule(const unsigned int active_cell) const;
 
   /** Volumes at the start of the run of the points of an owned active cell [L^dim]; here those of
    * the rule. */
@@ -135,10 +129,8 @@ private:
   /** @throws UserError where it is not finite */
   dealii::Tensor<1, dim> body_force(const unsigned int        active_cell,
                                     const dealii::Point<dim> &unit_point, const double time) const;
-  /** Of the face, instead of gamma (2 mu + lambda). */
-  double ghost_stiffness(const GhostFace &face) const;
+  CutStiffness           cut_stiffness() const;
 
-  const double      gamma;
-  GhostPenalty<dim> ghost_penalty;
+  const SmallCutTreatment<dim> &small_cuts;
 };
 } // namespace scree

@@ -74,16 +74,17 @@ public:
     return grid.communicator();
   }
 
-  const ProblemParameters                      parameters;
-  const BackgroundGrid<dim>                   &grid;
-  const std::vector<Body<dim>>                &bodies;
-  const std::vector<ContactPair>              &pairs;
-  const LevelSetNodes<dim>                     level_set_nodes;
-  const Fields<dim>                            fields;
-  const CutQuadrature<dim>                     quadrature;
-  const std::unique_ptr<const Kinematics<dim>> kinematics;
-  const Bulk<dim>                             &bulk; //!< of the kinematics
-  const BoundaryTerms<dim>                     boundary_terms;
+  const ProblemParameters                             parameters;
+  const BackgroundGrid<dim>                          &grid;
+  const std::vector<Body<dim>>                       &bodies;
+  const std::vector<ContactPair>                     &pairs;
+  const LevelSetNodes<dim>                            level_set_nodes;
+  const Fields<dim>                                   fields;
+  const CutQuadrature<dim>                            quadrature;
+  const std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
+  const std::unique_ptr<const Kinematics<dim>>        kinematics;
+  const Bulk<dim>                                    &bulk; //!< of the kinematics
+  const BoundaryTerms<dim>                            boundary_terms;
 
 private:
   /** Here it is chosen what u means; see the constructor. */

@@ -24,7 +24,7 @@ public:
 
   /** Collective. */
   IncrementalBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                  const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+                  const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
                   const StepStart<dim> &start);
 
   void add_internal_forces(const PointEvaluator<dim> &u, Vector &forces) const override;
@@ -73,8 +73,6 @@ public:
   }
 
 private:
-  using typename Bulk<dim>::CellRule;
-
   void set_reference_volumes(const unsigned int   active_cell,
                              std::vector<double> &volumes) const override;
 

@@ -18,7 +18,8 @@ public:
 
   /** Collective. */
   IncrementalKinematics(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                        const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
+                        const std::vector<Body<dim>>         &bodies,
+                        const SmallCutTreatment<dim>         &small_cuts,
                         std::unique_ptr<const StepStart<dim>> start, const double start_time);
 
   const Bulk<dim> &bulk() const override;

@@ -16,7 +16,7 @@ public:
   using typename Bulk<dim>::Work;
 
   LinearBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-             const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor);
+             const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts);
 
   void add_to_matrix(Matrix &matrix) const override;
 
