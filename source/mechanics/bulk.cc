@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/mechanics/bulk.h>
+#include <scree/mechanics/cut_cell_rule.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -42,14 +43,7 @@ template <int dim>
 CellRule<dim>
 Bulk<dim>::rule(const unsigned int active_cell) const
 {
-  const ActiveCell &cell = fields.cells()[active_cell];
-  if (!cell.is_cut)
-    return {quadrature.whole_cell.points.data(), quadrature.whole_cell.weights.data(),
-            static_cast<unsigned int>(quadrature.whole_cell.points.size()),
-            std::pow(fields.grid.cells()[cell.grid_cell].size, dim)};
-  const unsigned int begin = quadrature.bulk.begin[active_cell];
-  return {quadrature.bulk.points.data() + begin, quadrature.bulk.weights.data() + begin,
-          quadrature.bulk.begin[active_cell + 1] - begin, 1.};
+  return cut_cell_rule(fields, quadrature, active_cell);
 }
 
 template <int dim>

@@ -1,3 +1,4 @@
+#include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/discrete_problem.h>
 #include <scree/mechanics/incremental_kinematics.h>
 #include <scree/mechanics/material_update.h>
@@ -93,8 +94,9 @@ DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
     });
   auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
   return timed(timings, "history at quadrature points", [&]() {
-    return std::make_unique<IncrementalKinematics<dim>>(fields, quadrature, bodies, *small_cuts,
-                                                        std::move(start), state.time);
+    auto points = std::make_unique<CutCellGauss<dim>>(fields, quadrature, bodies, *start);
+    return std::make_unique<IncrementalKinematics<dim>>(
+      fields, quadrature, bodies, *small_cuts, std::move(start), std::move(points), state.time);
   });
 }
 

@@ -10,22 +10,6 @@ namespace scree
 {
 namespace
 {
-/** Unit gradients of the basis at points, node by node. */
-template <int dim>
-void
-append_gradients(const LagrangeBasis<dim> &basis, const dealii::Point<dim> *points,
-                 const unsigned int n_points, std::vector<double> &gradients)
-{
-  ShapeValues<dim> shape;
-  for (unsigned int q = 0; q < n_points; ++q)
-    {
-      basis.evaluate_gradients(points[q], shape);
-      for (unsigned int a = 0; a < basis.n_nodes; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          gradients.push_back(shape.gradient[a][d]);
-    }
-}
-
 template <int dim>
 std::vector<double>
 shares(const std::vector<Body<dim>> &bodies)
@@ -42,40 +26,21 @@ IncrementalBulk<dim>::IncrementalBulk(const Fields<dim>            &fields,
                                       const CutQuadrature<dim>     &quadrature,
                                       const std::vector<Body<dim>> &bodies,
                                       const SmallCutTreatment<dim> &small_cuts,
-                                      const StepStart<dim>         &start)
+                                      const BulkQuadrature<dim>    &points,
+                                      const PointEvaluator<dim>    &u_n)
     : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
-    , start(start)
+    , points(points)
+    , u_n(u_n)
+    , projection(fields, bodies, points, projected_shares)
 {
-  set_up_points();
-  set_up_modes();
   find_secant_ratios();
 }
 
 template <int dim>
-void
-IncrementalBulk<dim>::set_up_points()
+CellRule<dim>
+IncrementalBulk<dim>::rule(const unsigned int active_cell) const
 {
-  append_gradients(fields.basis, this->quadrature.whole_cell.points.data(),
-                   this->quadrature.whole_cell.points.size(), whole_gradients);
-  std::vector<PointInCell<dim>> points;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    {
-      const CellRule<dim> cell = rule(a);
-      first_point.push_back(points.size());
-      first_gradient.push_back(cut_gradients.size());
-      for (unsigned int q = 0; q < cell.n_points; ++q)
-        points.push_back({a, cell.points[q]});
-      if (fields.cells()[a].is_cut)
-        append_gradients(fields.basis, cell.points, cell.n_points, cut_gradients);
-    }
-  const auto histories = start.histories(points);
-  starts.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const auto &body = bodies[fields.cells()[points[i].active_cell].body];
-      starts.push_back(body.law->start(histories[i]));
-      volume_ratios.push_back(determinant(histories[i].deformation_gradient));
-    }
+  return points.rule(active_cell);
 }
 
 template <int dim>
@@ -85,12 +50,12 @@ IncrementalBulk<dim>::find_secant_ratios()
   std::vector<std::vector<double>> of_cells(fields.cells().size(), {1.});
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule<dim> points = rule(a);
+      const CellRule<dim> cell   = rule(a);
       double              volume = 0., alpha = 0.;
-      for (unsigned int q = 0; q < points.n_points; ++q)
+      for (unsigned int q = 0; q < cell.n_points; ++q)
         {
-          volume += points.weights[q];
-          alpha += points.weights[q] * starts[first_point[a] + q].alpha;
+          volume += cell.weights[q];
+          alpha += cell.weights[q] * points.starts(a)[q].alpha;
         }
       if (alpha > 0.)
         of_cells[a] = {bodies[fields.cells()[a].body].law->secant_ratio(alpha / volume)};
@@ -107,7 +72,7 @@ IncrementalBulk<dim>::set_reference_volumes(const unsigned int   active_cell,
 {
   Bulk<dim>::set_reference_volumes(active_cell, volumes);
   for (unsigned int q = 0; q < volumes.size(); ++q)
-    volumes[q] /= volume_ratios[first_point[active_cell] + q];
+    volumes[q] /= points.volume_ratios(active_cell)[q];
 }
 
 template <int dim>
@@ -117,15 +82,15 @@ IncrementalBulk<dim>::answers(const PointEvaluator<dim> &u, const bool with_tang
   if (!last.renew(u, with_tangents))
     return last;
   last.work = {};
-  last.piola.resize(starts.size());
+  last.piola.resize(points.n_points());
   last.volumes.resize(fields.cells().size());
   if (with_tangents)
     {
-      last.tangents.resize(starts.size());
+      last.tangents.resize(points.n_points());
       const bool is_projected = std::any_of(projected_shares.begin(), projected_shares.end(),
                                             [](const double share) { return share > 0.; });
-      last.volume_tensors.resize(is_projected ? starts.size() : 0);
-      last.mode_stiffness.resize(is_projected ? fields.n_owned_cells() : 0);
+      last.of_volumes.of_points.resize(is_projected ? points.n_points() : 0);
+      last.of_volumes.of_modes.resize(is_projected ? fields.n_owned_cells() : 0);
     }
   CellIncrement cell;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
@@ -137,38 +102,35 @@ template <int dim>
 void
 IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) const
 {
-  const CellRule<dim> points = rule(active_cell);
-  const unsigned int  n      = points.n_points;
-  const unsigned int  body   = fields.cells()[active_cell].body;
-  const std::size_t   first  = first_point[active_cell];
-  cell.active_cell           = active_cell;
-  cell.n_points              = n;
-  cell.mode_values           = mode_values.data() + first * VolumeModes<dim>::n_max;
-  cell.starts                = starts.data() + first;
+  const CellRule<dim> rule         = points.rule(active_cell);
+  const unsigned int  n            = rule.n_points;
+  const unsigned int  body         = fields.cells()[active_cell].body;
+  const std::size_t   first        = points.first_point(active_cell);
+  const bool          is_projected = projected_shares[body] > 0.;
+  cell.active_cell                 = active_cell;
+  cell.n_points                    = n;
   cell.weights.resize(n);
   cell.increments.resize(n);
   cell.responses.resize(n);
-  const double *shape = unit_gradients(active_cell);
+  const double *shape = points.unit_gradients(active_cell);
   for (unsigned int q = 0; q < n; ++q, shape += fields.basis.n_nodes * dim)
     {
-      cell.weights[q]    = points.weights[q] * points.weight_scale;
-      cell.increments[q] = increment(active_cell, shape, *last.u);
+      cell.weights[q]    = rule.weights[q] * rule.weight_scale;
+      cell.increments[q] = points.increment(*last.u, active_cell, shape);
     }
-  const bool is_projected                = projected_shares[body] > 0.;
-  last.volumes[active_cell].is_projected = is_projected;
   if (is_projected)
-    project(cell);
+    projection.project(cell, last.volumes[active_cell]);
+  dealii::Tensor<4, dim> *tangents = last.has_tangents ? last.tangents.data() + first : nullptr;
   bodies[body].law->respond(
     dealii::make_array_view(cell.increments.begin(), cell.increments.end()),
-    dealii::ArrayView<const IncrementStart>(cell.starts, n),
+    dealii::ArrayView<const IncrementStart>(points.starts(active_cell), n),
     dealii::make_array_view(cell.responses.begin(), cell.responses.end()),
-    dealii::ArrayView<dealii::Tensor<4, dim>>(
-      last.tangents.data() + (last.has_tangents ? first : 0), last.has_tangents ? n : 0));
+    dealii::ArrayView<dealii::Tensor<4, dim>>(tangents, last.has_tangents ? n : 0));
   if (is_projected)
-    pull_back(cell);
+    projection.pull_back(cell, tangents, last.of_volumes);
   for (unsigned int q = 0; q < n; ++q)
     {
-      const double reference_weight = cell.weights[q] / volume_ratios[first + q];
+      const double reference_weight = cell.weights[q] / points.volume_ratios(active_cell)[q];
       last.work.energy += reference_weight * cell.responses[q].energy;
       last.work.dissipation += reference_weight * cell.responses[q].dissipation;
       last.piola[first + q] = cell.responses[q].piola;
@@ -185,13 +147,14 @@ IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &
   std::vector<DofIndex>  unknowns;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule<dim> cell  = rule(a);
+      const CellRule<dim> cell  = points.rule(a);
       const double        scale = cell.weight_scale / fields.cell_size(a);
-      const double       *shape = unit_gradients(a);
+      const double       *shape = points.unit_gradients(a);
       cell_forces               = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
         {
-          const dealii::Tensor<2, dim> P = cell.weights[q] * scale * piola[first_point[a] + q];
+          const dealii::Tensor<2, dim> P
+            = cell.weights[q] * scale * piola[points.first_point(a) + q];
           for (unsigned int b = 0; b < n; ++b)
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
@@ -247,14 +210,15 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
   std::vector<DofIndex>      unknowns;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule<dim> cell  = rule(a);
+      const CellRule<dim> cell  = points.rule(a);
       const double        scale = cell.weight_scale / std::pow(fields.cell_size(a), 2);
-      const double       *shape = unit_gradients(a);
+      const double       *shape = points.unit_gradients(a);
       block                     = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
-        add_stiffness<dim>(tangents[first_point[a] + q], shape, n, cell.weights[q] * scale, block);
+        add_stiffness<dim>(tangents[points.first_point(a) + q], shape, n, cell.weights[q] * scale,
+                           block);
       if (projected_shares[fields.cells()[a].body] > 0.)
-        add_volume_couplings(a, block);
+        projection.add_couplings(a, last.of_volumes, block);
       set_unknowns_of_nodes<dim>(fields.nodes(a), n, unknowns);
       fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
     }
@@ -278,20 +242,20 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
 {
   const PointInCell<dim> point        = {active_cell, unit_point};
   const auto            &law          = *bodies[fields.cells()[active_cell].body].law;
-  const auto             history      = start.histories({point}).front();
+  const auto             history      = points.histories({point}).front();
   const auto             at_start     = law.start(history);
   const auto [displacement, gradient] = u.evaluate(point);
 
   const dealii::Tensor<2, dim> F_D
     = gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
-  const dealii::Tensor<2, dim> projected
-    = projected_increment(active_cell, unit_point, cell_volume(active_cell, u), F_D, at_start);
+  const dealii::Tensor<2, dim> projected = projection.projected_increment(
+    active_cell, unit_point, projection.cell_volume(active_cell, u), F_D, at_start);
   IncrementResponse<dim> response;
   law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&projected, 1),
               dealii::ArrayView<const IncrementStart>(&at_start, 1),
               dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
   BulkSample<dim> result;
-  result.displacement = start.displacement_field().value(point) + displacement;
+  result.displacement = u_n.value(point) + displacement;
   // Green's strain
   const dealii::Tensor<2, dim> F = F_D * history.deformation_gradient;
   result.strain = 0.5 * (symmetrize(transpose(F) * F) - dealii::unit_symmetric_tensor<dim>());
@@ -303,22 +267,13 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template IncrementalBulk<dim>::IncrementalBulk(                                                \
-    const Fields<dim> &, const CutQuadrature<dim> &, const std::vector<Body<dim>> &,             \
-    const SmallCutTreatment<dim> &, const StepStart<dim> &);                                     \
-  template const typename IncrementalBulk<dim>::Answers &IncrementalBulk<dim>::answers(          \
-    const PointEvaluator<dim> &, const bool) const;                                              \
-  template void IncrementalBulk<dim>::set_reference_volumes(const unsigned int,                  \
-                                                            std::vector<double> &) const;        \
-  template void IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &, Vector &) \
-    const;                                                                                       \
-  template void IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &, Matrix &) const;  \
-  template typename IncrementalBulk<dim>::Work IncrementalBulk<dim>::work(                       \
-    const PointEvaluator<dim> &) const;                                                          \
-  template BulkSample<dim> IncrementalBulk<dim>::sample(                                         \
-    const unsigned int, const dealii::Point<dim> &, const PointEvaluator<dim> &) const;
+template <int dim>
+const std::vector<typename IncrementVolumes<dim>::CellVolume> &
+IncrementalBulk<dim>::cell_volumes(const PointEvaluator<dim> &u) const
+{
+  return answers(u, false).volumes;
+}
 
-SCREE_INSTANTIATE(2)
-SCREE_INSTANTIATE(3)
+template class IncrementalBulk<2>;
+template class IncrementalBulk<3>;
 } // namespace scree

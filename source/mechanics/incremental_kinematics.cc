@@ -1,7 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/mechanics/incremental_kinematics.h>
 #include <scree/mechanics/incremental_nitsche.h>
-#include <scree/mechanics/material_update.h>
 #include <scree/mechanics/strong_supports.h>
 
 #include <algorithm>
@@ -38,12 +37,14 @@ IncrementalKinematics<dim>::IncrementalKinematics(const Fields<dim>             
                                                   const std::vector<Body<dim>>         &bodies,
                                                   const SmallCutTreatment<dim>         &small_cuts,
                                                   std::unique_ptr<const StepStart<dim>> start,
-                                                  const double                          start_time)
+                                                  std::unique_ptr<const BulkQuadrature<dim>> points,
+                                                  const double start_time)
     : Kinematics<dim>(start_time)
     , fields(fields)
-    , bodies(bodies)
     , start(std::move(start))
-    , incremental_bulk(fields, quadrature, bodies, small_cuts, *this->start)
+    , points(std::move(points))
+    , incremental_bulk(fields, quadrature, bodies, small_cuts, *this->points,
+                       this->start->displacement_field())
 {
 }
 
@@ -59,7 +60,7 @@ std::unique_ptr<BoundaryTerm<dim>>
 IncrementalKinematics<dim>::prescribed_displacements(
   const BoundarySetting<dim> &setting, const std::vector<unsigned int> &own_regions) const
 {
-  return std::make_unique<IncrementalNitsche<dim>>(setting, own_regions, incremental_bulk, *start);
+  return std::make_unique<IncrementalNitsche<dim>>(setting, own_regions, incremental_bulk, *points);
 }
 
 template <int dim>
@@ -181,10 +182,10 @@ IncrementalKinematics<dim>::extrapolated(const State<dim> &state, const double t
 
 template <int dim>
 MaterialPoints<dim>
-IncrementalKinematics<dim>::moved(const MaterialPoints<dim> &points,
+IncrementalKinematics<dim>::moved(const MaterialPoints<dim> &before,
                                   const PointEvaluator<dim> &u) const
 {
-  return moved_points(points, bodies, *start, incremental_bulk, u);
+  return points->moved(before, incremental_bulk, u);
 }
 
 template <int dim>

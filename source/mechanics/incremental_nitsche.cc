@@ -10,25 +10,25 @@ template <int dim>
 IncrementalNitsche<dim>::IncrementalNitsche(const BoundarySetting<dim>      &setting,
                                             const std::vector<unsigned int> &own_regions,
                                             const IncrementalBulk<dim>      &bulk,
-                                            const StepStart<dim>            &start)
+                                            const BulkQuadrature<dim>       &quadrature)
     : PrescribedDisplacements<dim>(setting, own_regions, false)
     , bulk(bulk)
     , starts(setting.regions.size())
 {
   std::copy_if(own_regions.begin(), own_regions.end(), std::back_inserter(nitsche_regions),
                [&](const unsigned int r) { return is_nitsche(this->region(r)); });
-  find_starts(start);
+  find_starts(quadrature);
 }
 
 template <int dim>
 void
-IncrementalNitsche<dim>::find_starts(const StepStart<dim> &start)
+IncrementalNitsche<dim>::find_starts(const BulkQuadrature<dim> &quadrature)
 {
   std::vector<PointInCell<dim>> points;
   for (const unsigned int r : nitsche_regions)
     for (const auto &point : this->region(r).points)
       points.push_back(point.in_cell());
-  const auto histories = start.histories(points);
+  const auto histories = quadrature.histories(points);
   auto       history   = histories.begin();
   for (const unsigned int r : nitsche_regions)
     for (unsigned int q = 0; q < this->region(r).points.size(); ++q)
@@ -67,8 +67,8 @@ IncrementalNitsche<dim>::ask(const unsigned int index) const
       const dealii::Tensor<2, dim> F_D = identity + last.u->gradient({active_cell, unit_point});
       increments[q]                    = F_D;
       if (is_projected(q))
-        changes[q] = bulk.volume_change(active_cell, unit_point, volumes[active_cell], F_D,
-                                        starts[index][q], increments[q]);
+        changes[q] = bulk.volume_projection().change(active_cell, unit_point, volumes[active_cell],
+                                                     F_D, starts[index][q], increments[q]);
     }
   bodies[region.body].law->respond(dealii::make_array_view(increments.begin(), increments.end()),
                                    dealii::ArrayView<const IncrementStart>(starts[index].data(), n),
@@ -156,7 +156,7 @@ IncrementalNitsche<dim>::set_point_tangent(const BoundaryRegion<dim>  &region,
   if (volume == nullptr)
     return;
   const dealii::Tensor<1, dim> by_volume = answer.by_volume * point.normal;
-  const auto                   psi       = bulk.volume_modes(point.active_cell)(point.unit_point);
+  const auto psi = bulk.volume_projection().modes(point.active_cell)(point.unit_point);
   for (unsigned int j = 0; j < n * dim; ++j)
     {
       double value = 0.; // derivative of the projected volume change
@@ -191,7 +191,7 @@ IncrementalNitsche<dim>::add_tangent(const PointEvaluator<dim> &u, const double 
           if (is_projected && of_cell != point.active_cell)
             {
               of_cell = point.active_cell;
-              volume  = bulk.volume_derivatives(of_cell, u);
+              volume  = bulk.volume_projection().derivatives(of_cell, u);
             }
           set_point_tangent(region, point, of_points[r][q], is_projected ? &volume : nullptr,
                             block);

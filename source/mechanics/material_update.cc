@@ -75,7 +75,8 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
       dealii::Tensor<2, dim>  F_D     = gradients[p];
       for (unsigned int d = 0; d < dim; ++d)
         F_D[d][d] += 1.;
-      F_D = bulk.projected_increment(cell, location.unit_point, volumes[cell], F_D, start);
+      F_D = bulk.volume_projection().projected_increment(cell, location.unit_point, volumes[cell],
+                                                         F_D, start);
       IncrementResponse<dim> response;
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
                   dealii::ArrayView<const IncrementStart>(&start, 1),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/incremental_kinematics.h>
 #include <scree/points/seeding.h>
 
@@ -30,7 +31,9 @@ struct StartedStep
                                                           points, parameters))
       , start(*made_start)
       , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
-      , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts, std::move(made_start), 0.)
+      , kinematics(
+          *cut.fields, quadrature, cut.bodies, *small_cuts, std::move(made_start),
+          std::make_unique<const CutCellGauss<dim>>(*cut.fields, quadrature, cut.bodies, start), 0.)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),

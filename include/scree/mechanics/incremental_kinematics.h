@@ -2,13 +2,14 @@
 
 #include <scree/mechanics/incremental_bulk.h>
 #include <scree/mechanics/kinematics.h>
+#include <scree/mechanics/step_start.h>
 
 namespace scree
 {
 /**
  * u is the increment since the start of a step, u_n = x - X and the histories of the material come
- * from material points (StepStart): any law in increments, pressures follow the surface. The grid
- * stays, so that the motion of box faces and vertices normal to it is none.
+ * from material points (StepStart, BulkQuadrature): any law in increments, pressures follow the
+ * surface. The grid stays, so that the motion of box faces and vertices normal to it is none.
  */
 template <int dim>
 class IncrementalKinematics : public Kinematics<dim>
@@ -16,11 +17,17 @@ class IncrementalKinematics : public Kinematics<dim>
 public:
   using typename Kinematics<dim>::Vector;
 
-  /** Collective. */
+  /**
+   * Collective.
+   *
+   * @param start  of the step: u_n
+   * @param points where the laws are asked, with the histories
+   */
   IncrementalKinematics(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                        const std::vector<Body<dim>>         &bodies,
-                        const SmallCutTreatment<dim>         &small_cuts,
-                        std::unique_ptr<const StepStart<dim>> start, const double start_time);
+                        const std::vector<Body<dim>>              &bodies,
+                        const SmallCutTreatment<dim>              &small_cuts,
+                        std::unique_ptr<const StepStart<dim>>      start,
+                        std::unique_ptr<const BulkQuadrature<dim>> points, const double start_time);
 
   const Bulk<dim> &bulk() const override;
 
@@ -61,15 +68,15 @@ public:
   /** By the extended increments of the last step. */
   Vector extrapolated(const State<dim> &state, const double time) const override;
 
-  MaterialPoints<dim> moved(const MaterialPoints<dim> &points,
+  MaterialPoints<dim> moved(const MaterialPoints<dim> &before,
                             const PointEvaluator<dim> &u) const override;
 
   MovingLeastSquaresReport transfer_report() const override;
 
 private:
-  const Fields<dim>                          &fields;
-  const std::vector<Body<dim>>               &bodies;
-  const std::unique_ptr<const StepStart<dim>> start;
-  IncrementalBulk<dim>                        incremental_bulk;
+  const Fields<dim>                               &fields;
+  const std::unique_ptr<const StepStart<dim>>      start;
+  const std::unique_ptr<const BulkQuadrature<dim>> points;
+  IncrementalBulk<dim>                             incremental_bulk;
 };
 } // namespace scree

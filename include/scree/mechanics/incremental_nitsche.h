@@ -14,10 +14,13 @@ public:
   using typename BoundaryTerm<dim>::Vector;
   using typename BoundaryTerm<dim>::Matrix;
 
-  /** @param bulk of the same step: stresses see its projected volume changes */
+  /**
+   * @param bulk       of the same step: stresses see its projected volume changes
+   * @param quadrature brings the histories
+   */
   IncrementalNitsche(const BoundarySetting<dim>      &setting,
                      const std::vector<unsigned int> &own_regions, const IncrementalBulk<dim> &bulk,
-                     const StepStart<dim> &start);
+                     const BulkQuadrature<dim> &quadrature);
 
   bool is_linear() const override;
 
@@ -33,7 +36,7 @@ private:
   std::vector<dealii::Tensor<1, dim>> fluxes(const unsigned int         region,
                                              const PointEvaluator<dim> &u) const override;
 
-  void find_starts(const StepStart<dim> &start);
+  void find_starts(const BulkQuadrature<dim> &quadrature);
   /** The law's answer at a point. */
   struct PointAnswer
   {
@@ -50,7 +53,7 @@ private:
   /** Those to u, asked for if the last ones were others. */
   const Answers &answers(const PointEvaluator<dim> &u, const bool with_tangents) const;
   void           ask(const unsigned int region) const;
-  using VolumeDerivatives = typename IncrementalBulk<dim>::VolumeDerivatives;
+  using VolumeDerivatives = typename IncrementVolumes<dim>::Derivatives;
   /** Sets the derivative of the forces of a point; `volume` of its cell, null: not projected. */
   void set_point_tangent(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                          const PointAnswer &answer, const VolumeDerivatives *volume,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/incremental_bulk.h>
+#include <scree/mechanics/step_start.h>
 
 namespace scree
 {
