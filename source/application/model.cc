@@ -142,7 +142,8 @@ unsigned int
 Model<dim>::move_bodies(const Vector &ghosted)
 {
   const Timings::Scope scope(run_log.timings, "level sets");
-  const auto      start = problem().equilibrium().with_ghosts(problem().step_start->displacement());
+  const auto           start
+    = problem().equilibrium().with_ghosts(problem().kinematics->start_displacement());
   const double    margin    = lattice_margin();
   auto           &bodies    = current.bodies;
   Predictor<dim> &predictor = current.predictor;
@@ -185,7 +186,7 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(current.bodies); ++i)
     current.step_end.multipliers.push_back(ghosted(problem().fields.multiplier(i)));
   MotionRecord<dim> record;
-  record.transfer_report = problem().step_start->transfer_report();
+  record.transfer_report = problem().kinematics->transfer_report();
   record.n_islands       = move_bodies(ghosted);
   current.points         = std::move(points);
   const auto before      = current.points.totals(current.bodies.size(), communicator);

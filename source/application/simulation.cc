@@ -29,7 +29,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
   results.set_discretization(problem.fields, problem.level_set_nodes);
   results.require_distinct_columns(problem.equilibrium(), problem.contact());
   // Probes outside their bodies are told before anything is computed.
-  results.require_probes(problem.bulk,
+  results.require_probes(*problem.kinematics,
                          problem.equilibrium().with_ghosts(model.state().displacement));
   report_set_up();
   if (checkpoint)
@@ -146,12 +146,11 @@ Simulation<dim>::write_results(const StepRecord &record)
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
   if (model.is_moving()) // Closing contact may have moved it.
     results.set_discretization(problem.fields, problem.level_set_nodes);
-  results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature,
-                         problem.bulk, u);
-  results.write_probes(record, problem.bulk, ghosted);
+  results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature, u);
+  results.write_probes(record, *problem.kinematics, ghosted);
   bool is_written = true;
   if (is_due(parameters.output.fields_every))
-    is_written &= results.write_fields(record, problem.bulk, ghosted);
+    is_written &= results.write_fields(record, *problem.kinematics, ghosted);
   if (is_due(parameters.output.contact_every))
     is_written &= results.write_contact(record, problem.contact());
   if (!is_written)
@@ -175,7 +174,7 @@ Simulation<dim>::check()
   require_prescribable();
   const DiscreteProblem<dim> &problem = model.problem();
   results.write_contact(StepRecord(), problem.contact());
-  results.write_fields(StepRecord(), problem.bulk,
+  results.write_fields(StepRecord(), *problem.kinematics,
                        problem.equilibrium().with_ghosts(model.state().displacement));
   write_regions_csv(problem.boundary_terms.regions(), model.state().bodies, communicator,
                     directory);

@@ -82,8 +82,7 @@ Stepper<dim>::move_points(const Vector &u) const
 {
   const DiscreteProblem<dim> &problem = model.problem();
   const MaterialPoints<dim>  &points  = model.state().points;
-  auto                        moved
-    = moved_points(points, problem.bodies, problem.bulk, problem.equilibrium().at_points(u));
+  auto moved  = problem.kinematics->moved(points, problem.equilibrium().at_points(u));
   auto reason = why_too_large(problem, points, moved);
   return {std::move(moved), std::move(reason)};
 }
@@ -228,8 +227,11 @@ Stepper<dim>::solve_step(Vector &u)
     result = solve_with_sticking(newton, start, u, result);
   if (!has_lost_contact(result))
     return result;
-  if (const auto error
-      = slide(model.problem(), model.state().contact, record.time, step_control.step_fraction()))
+  std::optional<UserError> error;
+  if (!model.is_moving())
+    error
+      = slide(model.problem(), model.state().contact, record.time, step_control.step_fraction());
+  if (error)
     {
       if (step_control.step_fraction() <= parameters.time.minimum_step_fraction)
         throw UserError(*error);

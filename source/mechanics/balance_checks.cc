@@ -114,9 +114,8 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
   const auto             &bodies      = problem.bodies;
   const auto              balances    = equilibrium.balance(u);
   // Of bodies without any forces: what moving the softest of them leaves by rounding.
-  const auto [lower, upper] = problem.grid.box().get_boundary_points();
-  double motion             = problem.is_moving() ? 1e-3 * lower.distance(upper) : 0.;
-  double softest            = std::numeric_limits<double>::max();
+  double motion  = 2e-3 * problem.kinematics->position_scale();
+  double softest = std::numeric_limits<double>::max();
   for (const BodyBalance<dim> &balance : balances)
     {
       motion  = std::max(motion, balance.largest_u);
@@ -133,10 +132,9 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
       const double allowed = largest_imbalance * balance.force_scale
                              + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion;
       const double held = equilibrium.held_moment(balance.body);
-      // On a moving geometry points are where they were at the start of the step.
       const double allowed_moment
         = 2. * balance.radius * (allowed + 2. * held)
-          + (problem.is_moving() ? 2. * balance.largest_u * balance.force_scale : 0.);
+          + 2. * problem.kinematics->arm_error(balance.largest_u) * balance.force_scale;
       const bool is_force = !(balance.force.norm() <= allowed);
       if (held > told_imbalance * balance.force_scale
           && run_log.warnings.is_new(Warning::badly_held, balance.body))
@@ -144,8 +142,7 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
                          + " against turning only to "
                          + short_number(100. * held / balance.force_scale)
                          + " % of what acts on it times half its size; refine the grid there");
-      // Other laws balance moments where the forces were at another time.
-      const bool has_moments = !problem.is_moving() || body.law->work() == WorkOf::current;
+      const bool has_moments = problem.kinematics->balances_moments(body);
       if (is_force || (has_moments && !(balance.moment.norm() <= allowed_moment)))
         throw_out_of_balance(problem, balance, is_force, newton, time);
     }

@@ -8,8 +8,8 @@ namespace scree
 template <int dim>
 void
 set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-             const Body<dim> &body, const BoundaryRegion<dim> &region, const StepStart<dim> &start,
-             std::vector<double> &coverage)
+             const Body<dim> &body, const BoundaryRegion<dim> &region,
+             const Kinematics<dim> &kinematics, std::vector<double> &coverage)
 {
   CutCellRules<dim> rules(fields.basis);
   int               last_cell = -1;
@@ -22,7 +22,8 @@ set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_node
       const auto                                            cell     = fields.cells()[a].grid_cell;
       const auto                                           &geometry = fields.grid.cells()[cell];
       const std::function<bool(const dealii::Point<dim> &)> selects  = [&](const auto &x) {
-        return region.condition->selects(start.reference_position({a, fields.unit_point(a, x)}));
+        return region.condition->selects(
+           kinematics.reference_position({a, fields.unit_point(a, x)}));
       };
       const CellPoints<dim> surface
         = load_rule<dim>(rules, fields.basis, geometry, nullptr, level_set_nodes.cut(cell, body),
@@ -62,7 +63,7 @@ outer_edge(const Fields<dim> &fields, const std::vector<double> &coverage)
 
 #define SCREE_INSTANTIATE(dim)                                                                   \
   template void set_coverage(const Fields<dim> &, const LevelSetNodes<dim> &, const Body<dim> &, \
-                             const BoundaryRegion<dim> &, const StepStart<dim> &,                \
+                             const BoundaryRegion<dim> &, const Kinematics<dim> &,               \
                              std::vector<double> &);                                             \
   template std::vector<bool> outer_edge(const Fields<dim> &, const std::vector<double> &);
 

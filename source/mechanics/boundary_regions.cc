@@ -10,8 +10,9 @@ namespace
 template <int dim>
 void
 add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-           const CutQuadrature<dim> &quadrature, const Body<dim> &body, const StepStart<dim> *start,
-           const unsigned int a, CutCellRules<dim> &rules, BoundaryRegion<dim> &region)
+           const CutQuadrature<dim> &quadrature, const Body<dim> &body,
+           const Kinematics<dim> &kinematics, const unsigned int a, CutCellRules<dim> &rules,
+           BoundaryRegion<dim> &region)
 {
   const ActiveCell  &cell     = fields.cells()[a];
   const auto        &geometry = fields.grid.cells()[cell.grid_cell];
@@ -23,7 +24,8 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
   const auto &parameters = region.condition->parameters;
   const bool  is_whole   = parameters.where == "1";
   const auto  is_exact   = region.condition->kind().law.acts_on_exact_boundary;
-  const bool  is_load    = is_exact != nullptr && is_exact(parameters) && !start && body.shape;
+  const auto *shape      = kinematics.exact_shape(body);
+  const bool  is_load    = is_exact != nullptr && is_exact(parameters) && shape != nullptr;
   std::function<bool(const dealii::Point<dim> &)> selects; // none: all
   if (!is_whole)
     selects = [&](const dealii::Point<dim> &x) { return region.condition->selects(x); };
@@ -39,11 +41,10 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
   else
     {
       const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
-      points = is_load ? load_rule<dim>(rules, fields.basis, geometry, body.shape.get(), cut, face,
-                                        selects)
+      points = is_load ? load_rule<dim>(rules, fields.basis, geometry, shape, cut, face, selects)
                        : rules.face_rule(cut, geometry.size, face);
       if (is_load && on_face)
-        points.append(strip_on_face(*body.shape, fields.basis, geometry, cut, face));
+        points.append(strip_on_face(*shape, fields.basis, geometry, cut, face));
     }
   for (unsigned int q = 0; q < points.points.size(); ++q)
     {
@@ -51,15 +52,11 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
       BoundaryPoint<dim>       point
         = {a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
       if (is_load && !on_face)
-        move_to_boundary(*body.shape, geometry, point);
-      if (start)
-        {
-          const auto   then        = start->deformation({a, points.points[q]});
-          const double stretch     = (point.normal * then.gradient).norm();
-          point.start_displacement = then.displacement;
-          point.reference_position -= then.displacement;
-          point.area_ratio = stretch / determinant(then.gradient);
-        }
+        move_to_boundary(*shape, geometry, point);
+      const auto then          = kinematics.surface_history({a, points.points[q]}, point.normal);
+      point.start_displacement = then.displacement;
+      point.reference_position -= then.displacement;
+      point.area_ratio = then.area_ratio;
       if (region.condition->selects(point.reference_position))
         region.points.push_back(point);
     }
@@ -107,7 +104,7 @@ template <int dim>
 std::vector<BoundaryRegion<dim>>
 find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                       const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                      const StepStart<dim> *start)
+                      const Kinematics<dim> &kinematics)
 {
   std::vector<BoundaryRegion<dim>>       regions;
   std::vector<std::vector<unsigned int>> regions_of_body(bodies.size());
@@ -118,7 +115,8 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
         if (condition.is_strong() || condition.is_at_vertex())
           continue;
         regions_of_body[b].push_back(regions.size());
-        regions.push_back({b, &condition, {}, 0., {}, 0., next_multiplier});
+        regions.push_back(
+          {b, &condition, {}, 0., {}, 0., next_multiplier, kinematics.follows_surface(condition)});
         next_multiplier += condition.n_multipliers();
       }
   CutCellRules<dim> rules(fields.basis);
@@ -126,7 +124,8 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
     {
       const unsigned int b = fields.cells()[a].body;
       for (const unsigned int r : regions_of_body[b])
-        add_points(fields, level_set_nodes, quadrature, bodies[b], start, a, rules, regions[r]);
+        add_points(fields, level_set_nodes, quadrature, bodies[b], kinematics, a, rules,
+                   regions[r]);
     }
   measure(fields.grid.communicator(), regions);
   for (const auto &region : regions)
@@ -140,7 +139,7 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
   template double squared_arm(const BoundaryRegion<dim> &, const BoundaryPoint<dim> &); \
   template std::vector<BoundaryRegion<dim>> find_boundary_regions(                      \
     const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &,        \
-    const std::vector<Body<dim>> &, const StepStart<dim> *);
+    const std::vector<Body<dim>> &, const Kinematics<dim> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

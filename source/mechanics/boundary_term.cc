@@ -1,5 +1,4 @@
 #include <scree/mechanics/mean_supports.h>
-#include <scree/mechanics/prescribed_displacements.h>
 #include <scree/mechanics/surface_tractions.h>
 
 namespace scree
@@ -11,6 +10,13 @@ BoundaryTerm<dim>::BoundaryTerm(const BoundarySetting<dim>      &setting,
     , fields(setting.fields)
     , own_regions(own_regions)
 {
+}
+
+template <int dim>
+bool
+BoundaryTerm<dim>::is_linear() const
+{
+  return true;
 }
 
 template <int dim>
@@ -103,7 +109,7 @@ make_boundary_term(const Imposition imposition, const BoundarySetting<dim> &sett
     case Imposition::traction:
       return std::make_unique<SurfaceTractions<dim>>(setting, own_regions);
     case Imposition::displacement:
-      return std::make_unique<PrescribedDisplacements<dim>>(setting, own_regions);
+      return setting.kinematics.prescribed_displacements(setting, own_regions);
     case Imposition::mean:
       return std::make_unique<MeanSupports<dim>>(setting, own_regions);
     case Imposition::vertex:

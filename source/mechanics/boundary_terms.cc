@@ -1,4 +1,5 @@
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/flowing_regions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -22,13 +23,15 @@ template <int dim>
 BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const CutQuadrature<dim>     &quadrature,
-                                  const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
-                                  const double start_time)
+                                  const std::vector<Body<dim>> &bodies,
+                                  const Kinematics<dim>        &kinematics)
     : fields(fields)
     , bodies(bodies)
     , boundary_regions(
-        find_boundary_regions(fields, level_set_nodes, quadrature, bodies, bulk.step_start()))
+        find_boundary_regions(fields, level_set_nodes, quadrature, bodies, kinematics))
 {
+  release_edges(fields, level_set_nodes, bodies, kinematics, boundary_regions);
+  forgive_flow(kinematics, boundary_regions);
   std::map<Imposition, std::vector<unsigned int>> regions_of_terms;
   for (unsigned int r = 0; r < boundary_regions.size(); ++r)
     regions_of_terms[boundary_regions[r].condition->kind().imposition].push_back(r);
@@ -36,8 +39,7 @@ BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
   for (const auto &[imposition, own_regions] : regions_of_terms)
     {
       terms.push_back(make_boundary_term<dim>(
-        imposition, {fields, level_set_nodes, bodies, bulk, start_time, boundary_regions},
-        own_regions));
+        imposition, {fields, bodies, kinematics, boundary_regions}, own_regions));
       for (const unsigned int r : own_regions)
         term_of_region[r] = terms.back().get();
     }
@@ -87,6 +89,14 @@ BoundaryTerms<dim>::multiplier_couplings() const
     for (const auto &unknowns : term->couplings())
       result.push_back(unknowns);
   return result;
+}
+
+template <int dim>
+bool
+BoundaryTerms<dim>::is_linear() const
+{
+  return std::all_of(terms.begin(), terms.end(),
+                     [](const auto &term) { return term->is_linear(); });
 }
 
 template <int dim>

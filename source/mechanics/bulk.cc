@@ -1,148 +1,78 @@
 #include <scree/base/exceptions.h>
 #include <scree/mechanics/bulk.h>
+#include <scree/mechanics/cut_cell_rule.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 namespace scree
 {
+namespace
+{
+/** Cells that flow keep this part of the stiffness of small cuts, for the condition number. */
+constexpr double smallest_ratio = 1e-3;
+
+std::vector<bool>
+positive(const std::vector<double> &shares)
+{
+  std::vector<bool> result;
+  for (const double share : shares)
+    result.push_back(share > 0.);
+  return result;
+}
+} // namespace
+
 template <int dim>
 Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                const std::vector<Body<dim>> &bodies, const double ghost_penalty_factor,
-                const StepStart<dim> *start)
+                const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
+                const std::vector<double> &projected_shares)
     : fields(fields)
     , quadrature(quadrature)
     , bodies(bodies)
-    , gamma(ghost_penalty_factor)
-    , ghost_penalty(fields)
-    , start(start)
+    , projected_shares(projected_shares)
+    , divergence(fields, quadrature, positive(projected_shares))
+    , secant_ratios(fields.cells().size(), 1.)
+    , small_cuts(small_cuts)
 {
-  for (const auto &body : bodies)
-    {
-      const auto *material = body.material.get();
-      projected_shares.push_back(
-        !material ? 0.
-        : start
-          ? body.law->projected_share()
-          : IsotropicModuli{material->lame_lambda(), material->shear_modulus()}.projected_share(
-            dim));
-    }
-  set_up_volume_rows();
-  secant_ratios.assign(fields.cells().size(), 1.);
-  if (start)
-    {
-      set_up_increments();
-      set_up_increment_modes();
-      find_secant_ratios();
-    }
 }
 
 template <int dim>
-typename Bulk<dim>::CellRule
+CellRule<dim>
 Bulk<dim>::rule(const unsigned int active_cell) const
 {
-  const ActiveCell &cell = fields.cells()[active_cell];
-  if (!cell.is_cut)
-    return {quadrature.whole_cell.points.data(), quadrature.whole_cell.weights.data(),
-            static_cast<unsigned int>(quadrature.whole_cell.points.size()),
-            std::pow(fields.grid.cells()[cell.grid_cell].size, dim)};
-  const unsigned int begin = quadrature.bulk.begin[active_cell];
-  return {quadrature.bulk.points.data() + begin, quadrature.bulk.weights.data() + begin,
-          quadrature.bulk.begin[active_cell + 1] - begin, 1.};
+  return cut_cell_rule(fields, quadrature, active_cell);
 }
 
 template <int dim>
 void
-Bulk<dim>::cell_stiffness(const unsigned int active_cell, dealii::FullMatrix<double> &matrix) const
+Bulk<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const ActiveCell  &cell   = fields.cells()[active_cell];
-  const double       scale  = 1. / fields.cell_size(active_cell);
-  const double       lambda = bodies[cell.body].material->lame_lambda();
-  const double       mu     = bodies[cell.body].material->shear_modulus();
-  const unsigned int n      = fields.basis.n_nodes;
-  const CellRule     points = rule(active_cell);
+  small_cuts.add_to_matrix(cut_stiffness(), matrix);
+}
 
-  // products[i][j](a, b) = int d_i N_a d_j N_b, then the isotropic tensor once.
-  constexpr unsigned int n_max                            = max_nodes_per_cell<dim>;
-  double                 products[dim][dim][n_max][n_max] = {};
-  double                 gradient[dim][n_max];
-  ShapeValues<dim>       shape;
+template <int dim>
+void
+Bulk<dim>::add_internal_forces(const PointEvaluator<dim> &, Vector &) const
+{
+}
+
+template <int dim>
+void
+Bulk<dim>::add_tangent(const PointEvaluator<dim> &, Matrix &) const
+{
+}
+
+template <int dim>
+void
+Bulk<dim>::set_reference_volumes(const unsigned int active_cell, std::vector<double> &volumes) const
+{
+  const CellRule<dim> points = rule(active_cell);
+  volumes.resize(points.n_points);
   for (unsigned int q = 0; q < points.n_points; ++q)
-    {
-      fields.basis.evaluate_gradients(points.points[q], shape);
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          gradient[d][a] = shape.gradient[a][d] * scale;
-      const double weight = points.weights[q] * points.weight_scale;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              const double factor = weight * gradient[i][a];
-              for (unsigned int b = 0; b < n; ++b)
-                products[i][j][a][b] += factor * gradient[j][b];
-            }
-    }
-  matrix.reinit(n * dim, n * dim);
-  const double projected = projected_lambda(cell.body);
-  if (projected > 0.)
-    add_projected_stiffness(active_cell, projected, matrix);
-  for (unsigned int a = 0; a < n; ++a)
-    for (unsigned int b = 0; b < n; ++b)
-      {
-        double trace = 0.;
-        for (unsigned int k = 0; k < dim; ++k)
-          trace += products[k][k][a][b];
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            matrix(a * dim + i, b * dim + j) += (lambda - projected) * products[i][j][a][b]
-                                                + mu * products[j][i][a][b]
-                                                + (i == j ? mu * trace : 0.);
-      }
-}
-
-template <int dim>
-void
-Bulk<dim>::add_to_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix)
-{
-  const auto                &constraints = fields.hanging_constraints();
-  const unsigned int         n           = fields.basis.n_nodes;
-  dealii::FullMatrix<double> cell_matrix;
-  // Whole cells of one body and size share their matrix.
-  std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
-  for (unsigned int a = 0; a < fields.n_owned_cells() && !start; ++a)
-    {
-      const ActiveCell &cell    = fields.cells()[a];
-      const auto        indices = unknowns_of_nodes<dim>(fields.nodes(a), n);
-      if (cell.is_cut)
-        {
-          cell_stiffness(a, cell_matrix);
-          constraints.distribute_local_to_global(cell_matrix, indices, matrix);
-          continue;
-        }
-      auto &shared = whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
-      if (shared.empty())
-        cell_stiffness(a, shared);
-      constraints.distribute_local_to_global(shared, indices, matrix);
-    }
-
-  if (gamma == 0.)
-    return;
-  for (const GhostFace &face : ghost_penalty.faces())
-    {
-      const double factor = ghost_stiffness(face);
-      const auto   jumps  = ghost_penalty.block(face);
-      cell_matrix.reinit(jumps.nodes.size() * dim, jumps.nodes.size() * dim);
-      for (unsigned int i = 0; i < jumps.nodes.size(); ++i)
-        for (unsigned int j = 0; j < jumps.nodes.size(); ++j)
-          for (unsigned int d = 0; d < dim; ++d)
-            cell_matrix(i * dim + d, j * dim + d) = factor * jumps.matrix(i, j);
-      constraints.distribute_local_to_global(
-        cell_matrix, unknowns_of_nodes<dim>(jumps.nodes.data(), jumps.nodes.size()), matrix);
-    }
+    volumes[q] = points.weights[q] * points.weight_scale;
 }
 
 template <int dim>
@@ -170,16 +100,17 @@ void
 Bulk<dim>::add_body_forces(Vector &loads, const double time) const
 {
   const unsigned int     n = fields.basis.n_nodes;
-  std::vector<double>    shape(n);
+  std::vector<double>    shape(n), reference_volumes;
   dealii::Vector<double> cell_load(n * dim);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
       const ActiveCell &cell = fields.cells()[a];
       if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
         continue;
-      const CellRule points = rule(a);
-      const double   size   = fields.grid.cells()[cell.grid_cell].size;
-      double         volume = 0., reference_volume = 0.;
+      const CellRule<dim> points = rule(a);
+      const double        size   = fields.grid.cells()[cell.grid_cell].size;
+      set_reference_volumes(a, reference_volumes);
+      double volume = 0., reference_volume = 0.;
       cell_load      = 0.;
       const auto add = [&](const dealii::Point<dim> &unit_point, const double weight) {
         const dealii::Tensor<1, dim> b = weight * body_force(a, unit_point, time);
@@ -190,11 +121,9 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
       };
       for (unsigned int q = 0; q < points.n_points; ++q)
         {
-          const double weight    = points.weights[q] * points.weight_scale;
-          const double reference = start ? weight / volume_ratios[first_point[a] + q] : weight;
-          add(points.points[q], reference);
-          volume += weight;
-          reference_volume += reference;
+          add(points.points[q], reference_volumes[q]);
+          volume += points.weights[q] * points.weight_scale;
+          reference_volume += reference_volumes[q];
         }
       // The strip between the cut and the body's boundary.
       const auto &surface = quadrature.surface;
@@ -211,99 +140,36 @@ template <int dim>
 std::vector<std::vector<DofIndex>>
 Bulk<dim>::couplings() const
 {
-  const unsigned int                 n = fields.basis.n_nodes;
   std::vector<std::vector<DofIndex>> result;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    result.emplace_back(fields.nodes(a), fields.nodes(a) + n);
-  for (const GhostFace &face : ghost_penalty.faces())
-    {
-      std::vector<DofIndex> nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
-      nodes.insert(nodes.end(), fields.nodes(face.neighbor), fields.nodes(face.neighbor) + n);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      result.push_back(nodes);
-    }
+    result.emplace_back(fields.nodes(a), fields.nodes(a) + fields.basis.n_nodes);
+  for (const auto &nodes : small_cuts.couplings())
+    result.push_back(nodes);
   return result;
 }
 
 template <int dim>
-BulkSample<dim>
-Bulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
-                  const PointEvaluator<dim> &u) const
+CutStiffness
+Bulk<dim>::cut_stiffness() const
 {
-  const PointInCell<dim> point = {active_cell, unit_point};
-  if (start)
-    return increment_sample(point, u);
-  const auto  &body                   = bodies[fields.cells()[active_cell].body];
-  const double share                  = projected_shares[fields.cells()[active_cell].body];
-  const auto [displacement, gradient] = u.evaluate(point);
-  BulkSample<dim> result;
-  result.displacement = displacement;
-  result.strain       = symmetrize(gradient);
-  if (share > 0.)
+  CutStiffness result;
+  for (const auto &body : bodies)
     {
-      const double correction = share / dim * (projected_divergence(point, u) - trace(gradient));
-      for (unsigned int d = 0; d < dim; ++d)
-        result.strain[d][d] += correction;
+      const double mu     = body.is_rigid() ? 0. : body.material->shear_modulus();
+      const double lambda = body.is_rigid() ? 0. : body.material->lame_lambda();
+      result.of_bodies.push_back(2. * mu + std::min(lambda, IsotropicModuli::largest_ratio * mu));
     }
-  result.stress = body.material->stress(result.strain);
-  if (dim == 2)
-    result.out_of_plane_stress = body.material->out_of_plane_stress(result.strain);
+  for (const double secant : secant_ratios)
+    result.ratios.push_back(std::max(smallest_ratio, secant * secant));
   return result;
 }
 
 template <int dim>
 double
-Bulk<dim>::linear_strain_energy(const PointEvaluator<dim> &u) const
+Bulk<dim>::energy_of_small_cuts(const PointEvaluator<dim> &u) const
 {
-  // As u K u/2 with the matrices of the cells, which whole cells share.
-  const unsigned int                                                    n = fields.basis.n_nodes;
-  dealii::FullMatrix<double>                                            cut_cell;
-  std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
-  double                                                                energy = 0.;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    {
-      const ActiveCell &cell   = fields.cells()[a];
-      auto             &matrix = cell.is_cut
-                                   ? cut_cell
-                                   : whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
-      if (cell.is_cut || matrix.empty())
-        cell_stiffness(a, matrix);
-      // Without the translation of the cell, which has no energy but round-off.
-      const double                                     *nodal = u.nodal_values(a);
-      std::array<double, dim * max_nodes_per_cell<dim>> relative;
-      for (unsigned int i = 0; i < n * dim; ++i)
-        relative[i] = nodal[i] - nodal[i % dim];
-      for (unsigned int i = 0; i < n * dim; ++i)
-        for (unsigned int j = 0; j < n * dim; ++j)
-          energy += 0.5 * relative[i] * matrix(i, j) * relative[j];
-    }
-  return energy;
-}
-
-template <int dim>
-double
-Bulk<dim>::ghost_energy(const PointEvaluator<dim> &u)
-{
-  const unsigned int n      = fields.basis.n_nodes;
-  double             energy = 0.;
-  if (gamma > 0.)
-    for (const GhostFace &face : ghost_penalty.faces())
-      {
-        const auto   jumps  = ghost_penalty.matrix(face);
-        const double factor = ghost_stiffness(face);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            dealii::Vector<double> nodal(2 * n);
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                nodal(i)     = u.nodal_values(face.cell)[i * dim + d];
-                nodal(n + i) = u.nodal_values(face.neighbor)[i * dim + d];
-              }
-            energy += 0.5 * factor * jumps.matrix_norm_square(nodal);
-          }
-      }
-  return dealii::Utilities::MPI::sum(energy, fields.grid.communicator());
+  return dealii::Utilities::MPI::sum(small_cuts.energy(cut_stiffness(), u),
+                                     fields.grid.communicator());
 }
 
 template <int dim>
@@ -313,7 +179,7 @@ Bulk<dim>::volumes() const
   std::vector<double> volume(bodies.size(), 0.);
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const CellRule points = rule(a);
+      const CellRule<dim> points = Bulk<dim>::rule(a);
       for (unsigned int q = 0; q < points.n_points; ++q)
         volume[fields.cells()[a].body] += points.weights[q] * points.weight_scale;
     }
@@ -333,14 +199,39 @@ Bulk<dim>::add_lumped_volumes(Vector &volumes, const std::vector<double> &factor
       if (factor == 0.)
         continue;
       // Equal shares: those of the basis functions are not all positive for degree 2.
-      const CellRule points = rule(a);
-      double         volume = 0.;
+      const CellRule<dim> points = rule(a);
+      double              volume = 0.;
       for (unsigned int q = 0; q < points.n_points; ++q)
         volume += points.weights[q] * points.weight_scale;
       lumped = factor * volume / n;
       fields.hanging_constraints().distribute_local_to_global(
         lumped, unknowns_of_nodes<dim>(fields.nodes(a), n), volumes);
     }
+}
+
+template <int dim>
+double
+Bulk<dim>::projected_lambda(const unsigned int body) const
+{
+  const auto &material = *bodies[body].material;
+  return std::min(std::max(0., material.lame_lambda()),
+                  projected_shares[body]
+                    * (material.lame_lambda() + 2. * material.shear_modulus() / dim));
+}
+
+template <int dim>
+typename Bulk<dim>::Vector
+Bulk<dim>::nodal_secant_ratios() const
+{
+  Vector smallest(fields.owned(), fields.grid.communicator());
+  for (const DofIndex i : fields.owned())
+    smallest(i) = 1.;
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      if (const DofIndex node = fields.nodes(a)[i]; fields.owned().is_element(node))
+        smallest(node) = std::min<double>(smallest(node), secant_ratios[a]);
+  smallest.compress(dealii::VectorOperation::insert);
+  return smallest;
 }
 
 template class Bulk<2>;

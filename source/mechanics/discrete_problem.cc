@@ -1,5 +1,8 @@
+#include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/discrete_problem.h>
+#include <scree/mechanics/incremental_kinematics.h>
 #include <scree/mechanics/material_update.h>
+#include <scree/mechanics/total_kinematics.h>
 
 namespace scree
 {
@@ -25,12 +28,12 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
       return predictor.expected_increment(state.bodies[b], b, x, step_size);
     };
   typename Bulk<dim>::Vector ratios;
-  if (problem.step_start)
+  if (problem.is_moving())
     ratios = problem.bulk.nodal_secant_ratios();
-  return ContactPoints<dim>(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
-                            problem.shift(), prediction,
-                            problem.step_start ? &problem.step_start->displacement() : nullptr,
-                            problem.step_start ? &ratios : nullptr);
+  return ContactPoints<dim>(
+    problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs, problem.shift(),
+    prediction, problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
+    problem.is_moving() ? &ratios : nullptr);
 }
 } // namespace
 
@@ -41,8 +44,9 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                     [&]() { return contact_points(problem, state, step_size); }))
     , equilibrium(timed(problem.timings, "linear assembly",
                         [&]() {
-                          return Equilibrium<dim>(problem.fields, problem.bodies, problem.bulk,
-                                                  problem.boundary_terms, contact);
+                          return Equilibrium<dim>(problem.fields, problem.bodies,
+                                                  *problem.kinematics, problem.boundary_terms,
+                                                  contact);
                         }))
     , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
              equilibrium, contact, problem.timings)
@@ -67,18 +71,13 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
                    }))
     , quadrature(timed(timings, "quadrature",
                        [&]() { return CutQuadrature<dim>(fields, level_set_nodes, bodies); }))
-    , step_start(is_moving()
-                   ? timed(timings, "material points", [&]() { return start_of_step(state); })
-                   : nullptr)
-    , bulk(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
-                 [&]() {
-                   return Bulk<dim>(fields, quadrature, bodies, parameters.ghost_penalty,
-                                    step_start.get());
-                 }))
+    , small_cuts(make_small_cut_treatment(fields, parameters.ghost_penalty))
+    , kinematics(make_kinematics(state, timings))
+    , bulk(kinematics->bulk())
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
                              return BoundaryTerms<dim>(fields, level_set_nodes, quadrature, bodies,
-                                                       bulk, state.time);
+                                                       *kinematics);
                            }))
     , timings(timings)
 {
@@ -86,7 +85,23 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
 }
 
 template <int dim>
-std::unique_ptr<StepStart<dim>>
+std::unique_ptr<const Kinematics<dim>>
+DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
+{
+  if (!is_moving())
+    return timed(timings, "quadrature", [&]() {
+      return std::make_unique<TotalKinematics<dim>>(fields, quadrature, bodies, *small_cuts);
+    });
+  auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
+  return timed(timings, "history at quadrature points", [&]() {
+    auto points = std::make_unique<CutCellGauss<dim>>(fields, quadrature, bodies, *start);
+    return std::make_unique<IncrementalKinematics<dim>>(
+      fields, quadrature, bodies, *small_cuts, std::move(start), std::move(points), state.time);
+  });
+}
+
+template <int dim>
+std::unique_ptr<const StepStart<dim>>
 DiscreteProblem<dim>::start_of_step(State<dim> &state) const
 {
   const MovingGeometryParameters &moving = parameters.moving;
@@ -94,7 +109,7 @@ DiscreteProblem<dim>::start_of_step(State<dim> &state) const
     distribute_points(fields, moving, state.points);
   else
     state.points = seed_points(fields, level_set_nodes, bodies, quadrature, moving);
-  return std::make_unique<StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
+  return std::make_unique<const StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
 }
 
 template <int dim>

@@ -15,28 +15,26 @@ namespace scree
 {
 template <int dim>
 Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                              Bulk<dim> &bulk, const BoundaryTerms<dim> &boundary_terms,
-                              ContactPoints<dim> &contact)
-    : fields(fields)
+                              const Kinematics<dim>    &kinematics,
+                              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact)
+    : kinematics(kinematics)
+    , fields(fields)
     , bodies(bodies)
-    , bulk(bulk)
+    , bulk(kinematics.bulk())
     , boundary_terms(boundary_terms)
     , contact(contact)
-    , supports(fields, bodies, bulk.step_start())
+    , supports(fields, bodies, kinematics)
     , rigid(fields, bodies, contact)
-    , free(fields, bodies, supports, boundary_terms, contact, bulk.step_start() != nullptr)
+    , free(fields, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite())
+    , ledger(fields, bodies, kinematics, boundary_terms, contact, supports, rigid)
     , seen_by_bulk(fields)
 {
   set_up_matrices();
   const MPI_Comm communicator = fields.grid.communicator();
   for (Vector *vector :
-       {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass,
-        &accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
+       {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass})
     vector->reinit(fields.owned(), communicator);
   ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
-  for (const auto &region : boundary_terms.regions())
-    accepted_tractions.emplace_back(is_following_pressure(region) ? region.points.size() : 0);
-  accepted_displacements = accepted_tractions;
   set_up_artificial_mass();
 }
 
@@ -74,8 +72,7 @@ Equilibrium<dim>::set_up_matrices()
   bulk.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   start_forces.reinit(fields.owned(), communicator);
-  if (!is_linear_but_for_contact())
-    stiffness.vmult(start_forces, bulk.step_start()->displacement());
+  stiffness.vmult(start_forces, kinematics.start_displacement());
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   diagonal.reinit(fields.owned(), communicator);
@@ -123,7 +120,7 @@ template <int dim>
 void
 Equilibrium<dim>::set_prescribed(Vector &u) const
 {
-  supports.set(u, time, start_time);
+  supports.set(u, time);
   rigid.set(u, time);
 }
 
@@ -149,11 +146,10 @@ template <int dim>
 void
 Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, Vector &r)
 {
-  // Contact stencils have no hanging nodes, laws in increments see them.
-  if (is_linear_but_for_contact())
-    ghosted = u;
-  else
-    ghosted = with_ghosts(u);
+  // Contact stencils have no hanging nodes, stresses see them.
+  scratch = u;
+  fields.hanging_constraints().distribute(scratch);
+  ghosted = scratch;
   scratch = u;
   scratch.scale(diagonal);
   stiffness_times_displacement = scratch.l2_norm();
@@ -168,7 +164,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   if (turns_infinitesimally())
     {
       // Contact sees u, the bulk what strains it.
-      const Vector v = free.strained(u, accepted_u, artificial_mass);
+      const Vector v = free.strained(u, ledger.accepted_displacement(), artificial_mass);
       seen_by_bulk.gather(with_ghosts(v));
       stiffness.vmult(internal_forces, v);
     }
@@ -177,13 +173,10 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
       seen_by_bulk.gather(ghosted);
       stiffness.vmult(internal_forces, u);
     }
-  if (!is_linear_but_for_contact())
-    {
-      internal_forces += start_forces;
-      bulk.add_internal_forces(seen_by_bulk, internal_forces);
-      boundary_terms.add_internal_forces(seen_by_bulk, time, internal_forces);
-      internal_forces.compress(dealii::VectorOperation::add);
-    }
+  internal_forces += start_forces;
+  bulk.add_internal_forces(seen_by_bulk, internal_forces);
+  boundary_terms.add_internal_forces(seen_by_bulk, time, internal_forces);
+  internal_forces.compress(dealii::VectorOperation::add);
   r = loads;
   r -= internal_forces;
   r += contact_forces;
@@ -191,7 +184,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   if (drag != 0.)
     {
       scratch = u;
-      scratch -= accepted_u;
+      scratch -= ledger.accepted_displacement();
       scratch.scale(artificial_mass);
       r.add(-drag, scratch);
     }
@@ -318,14 +311,8 @@ template <int dim>
 double
 Equilibrium<dim>::round_off() const
 {
-  double result = 1e-15 * stiffness_times_displacement;
-  if (bulk.step_start() != nullptr)
-    {
-      // Displacements since the beginning are differences of positions.
-      const auto [lower, upper] = fields.grid.box().get_boundary_points();
-      result += 1e-16 * std::max(lower.norm(), upper.norm()) * diagonal.l2_norm();
-    }
-  return result;
+  return 1e-15 * stiffness_times_displacement
+         + 1e-16 * kinematics.position_scale() * diagonal.l2_norm();
 }
 
 template <int dim>
@@ -409,61 +396,71 @@ Equilibrium<dim>::condition_names() const
 }
 
 template <int dim>
-std::vector<double>
-Equilibrium<dim>::tangent_changes() const
+EvaluatedState<dim>
+Equilibrium<dim>::evaluated(const Vector &u) const
 {
-  return contact.tangent_changes();
+  Vector driving(internal_forces);
+  reactions(driving);
+  driving += applied_forces;
+  return {time, u, at_points(u), loads, dead_loads, contact_forces, driving};
 }
 
 template <int dim>
-bool
-Equilibrium<dim>::is_linear_but_for_contact() const
+typename Equilibrium<dim>::Vector
+Equilibrium<dim>::take_as_accepted(const double time, const ContactHistory<dim> &history, Vector &u)
 {
-  return bulk.step_start() == nullptr;
+  set_time(time, u);
+  ledger.set_accepted(time, u);
+  Vector r(u);
+  residual(u, history, r);
+  return r;
+}
+
+template <int dim>
+void
+Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
+                             const Energies &energies, const DrivingForces<dim> *driving)
+{
+  Vector accepted   = u;
+  Vector unbalanced = take_as_accepted(time, history, accepted);
+  if (driving == nullptr)
+    {
+      // Bodies may overlap: only contact is unbalanced.
+      unbalanced = contact_forces;
+      set_zero_on_prescribed(unbalanced);
+    }
+  ledger.start_step(evaluated(accepted), unbalanced, history, energies, driving);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::resume(const double time, const Vector &u, const ContactHistory<dim> &history,
+                         const Energies &energies)
+{
+  Vector accepted = u;
+  take_as_accepted(time, history, accepted);
+  ledger.resume(evaluated(accepted), energies);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
+{
+  ledger.accept(evaluated(u), old_history);
 }
 
 template <int dim>
 void
 Equilibrium<dim>::accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history)
 {
-  const double before = current_energies.balance_error();
-  accept(u, old_history);
-  current_energies.transfer -= current_energies.balance_error() - before;
+  ledger.accept_as_transfer(evaluated(u), old_history);
 }
 
 template <int dim>
-const StrongSupports<dim> &
-Equilibrium<dim>::strong_supports() const
+void
+Equilibrium<dim>::count_overlap()
 {
-  return supports;
-}
-
-template <int dim>
-const RigidBodies<dim> &
-Equilibrium<dim>::rigid_bodies() const
-{
-  return rigid;
-}
-
-template <int dim>
-const std::vector<FreeMotion> &
-Equilibrium<dim>::free_bodies() const
-{
-  return free.motions();
-}
-
-template <int dim>
-const FreeBodies<dim> &
-Equilibrium<dim>::free_motions() const
-{
-  return free;
-}
-
-template <int dim>
-const Energies &
-Equilibrium<dim>::energies() const
-{
-  return current_energies;
+  ledger.count_overlap();
 }
 
 template class Equilibrium<2>;

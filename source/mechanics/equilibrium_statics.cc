@@ -86,7 +86,7 @@ bool
 Equilibrium<dim>::set_moved(const double new_time, Vector &u)
 {
   Vector before(u);
-  set_time(accepted_time, before);
+  set_time(ledger.time_of_accepted(), before);
   Vector change(loads);
   change -= dead_loads;
   set_time(new_time, u);
@@ -204,7 +204,7 @@ template <int dim>
 bool
 Equilibrium<dim>::turns_infinitesimally() const
 {
-  return is_second_attempt && !is_linear_but_for_contact() && !free_bodies().empty();
+  return is_second_attempt && kinematics.rotations_are_finite() && !free_bodies().empty();
 }
 
 template <int dim>
@@ -224,8 +224,8 @@ Equilibrium<dim>::turn(Vector &u) const
   if (!turns_infinitesimally())
     return;
   Vector du(u);
-  du -= accepted_u;
-  u = accepted_u;
+  du -= ledger.accepted_displacement();
+  u = ledger.accepted_displacement();
   free.advance(du, artificial_mass, u);
 }
 

@@ -4,7 +4,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace scree
@@ -14,12 +13,6 @@ ErrorEstimate
 estimate_error(const DiscreteProblem<dim> &problem, const State<dim> &state)
 {
   ErrorEstimate result;
-  if (problem.is_moving())
-    {
-      result.squares.assign(problem.grid.n_owned_cells(), 0.);
-      result.relative = std::numeric_limits<double>::quiet_NaN();
-      return result;
-    }
   result.squares = recovery_errors(problem.fields, problem.quadrature, problem.bodies, problem.bulk,
                                    problem.equilibrium().with_ghosts(state.displacement));
   const double squares = dealii::Utilities::MPI::sum(

@@ -6,54 +6,6 @@
 
 namespace scree
 {
-namespace
-{
-/** Sets the owned nodes of deformable bodies in u to `factor` times the extended increments. */
-template <int dim>
-void
-set_increments(const Fields<dim> &fields, const Predictor<dim> &predictor, const double factor,
-               typename Equilibrium<dim>::Vector &u)
-{
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    {
-      const auto &of_body = predictor.of_bodies[fields.cells()[a].body];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-        {
-          const DofIndex node = fields.nodes(a)[i];
-          if (!fields.owned().is_element(node) || fields.hanging_constraints().is_constrained(node))
-            continue;
-          const auto increment = factor * of_body(fields.position(a, fields.basis.node(i)));
-          for (unsigned int d = 0; d < dim; ++d)
-            u(node + d) = increment[d];
-        }
-    }
-}
-} // namespace
-
-template <int dim>
-typename Equilibrium<dim>::Vector
-extrapolated(const DiscreteProblem<dim> &problem, const State<dim> &state, const double time)
-{
-  const Predictor<dim> &predictor = state.predictor;
-  auto                  result    = state.displacement;
-  if (!problem.is_moving())
-    {
-      result.add(time - state.time, predictor.rate);
-      return result;
-    }
-  const Fields<dim> &fields = problem.fields;
-  const double       factor = (time - state.time) / predictor.step_size;
-  set_increments(fields, predictor, factor, result);
-  for (unsigned int b = 0; b < state.bodies.size(); ++b)
-    if (state.bodies[b].is_rigid())
-      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          result(fields.rigid_unknown(b) + m)
-            = state.bodies[b].pose.unknowns()[m] + factor * predictor.of_rigid[b][m];
-  result.compress(dealii::VectorOperation::insert);
-  return result;
-}
-
 template <int dim>
 typename Equilibrium<dim>::Vector
 first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const double time,
@@ -67,7 +19,7 @@ first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const 
   std::vector<Vector> guesses = {unchanged};
   if (!state.predictor.is_empty())
     {
-      guesses.push_back(extrapolated(problem, state, time));
+      guesses.push_back(problem.kinematics->extrapolated(state, time));
       equilibrium.set_prescribed(guesses.back());
     }
   if (std::any_of(state.bodies.begin(), state.bodies.end(),
@@ -96,11 +48,9 @@ first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const 
   return guesses[best];
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                     \
-  template Equilibrium<dim>::Vector extrapolated(const DiscreteProblem<dim> &, const State<dim> &, \
-                                                 const double);                                    \
-  template Equilibrium<dim>::Vector first_guess(                                                   \
-    const DiscreteProblem<dim> &, const State<dim> &, const double,                                \
+#define SCREE_INSTANTIATE(dim)                                      \
+  template Equilibrium<dim>::Vector first_guess(                    \
+    const DiscreteProblem<dim> &, const State<dim> &, const double, \
     const std::function<void(const Equilibrium<dim>::Vector &, Equilibrium<dim>::Vector &)> &);
 
 SCREE_INSTANTIATE(2)

@@ -54,11 +54,11 @@ distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &par
 template <int dim>
 MaterialPoints<dim>
 moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>> &bodies,
-             const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
+             const StepStart<dim> &step_start, const IncrementalBulk<dim> &bulk,
+             const PointEvaluator<dim> &u)
 {
-  MaterialPoints<dim>                 points     = old_points;
-  const StepStart<dim>               &step_start = *bulk.step_start();
-  const auto                         &volumes    = bulk.cell_volumes(u);
+  MaterialPoints<dim>                 points  = old_points;
+  const auto                         &volumes = bulk.cell_volumes(u);
   std::vector<dealii::Tensor<1, dim>> increments(points.size());
   std::vector<dealii::Tensor<2, dim>> gradients(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
@@ -75,7 +75,8 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
       dealii::Tensor<2, dim>  F_D     = gradients[p];
       for (unsigned int d = 0; d < dim; ++d)
         F_D[d][d] += 1.;
-      F_D = bulk.projected_increment(cell, location.unit_point, volumes[cell], F_D, start);
+      F_D = bulk.volume_projection().projected_increment(cell, location.unit_point, volumes[cell],
+                                                         F_D, start);
       IncrementResponse<dim> response;
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
                   dealii::ArrayView<const IncrementStart>(&start, 1),
@@ -93,15 +94,15 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template MaterialPoints<dim> seed_points(                                                    \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,           \
-    const CutQuadrature<dim> &, const MovingGeometryParameters &);                             \
-  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &,       \
-                                  MaterialPoints<dim> &);                                      \
-  template MaterialPoints<dim> moved_points(const MaterialPoints<dim> &,                       \
-                                            const std::vector<Body<dim>> &, const Bulk<dim> &, \
-                                            const PointEvaluator<dim> &);
+#define SCREE_INSTANTIATE(dim)                                                           \
+  template MaterialPoints<dim> seed_points(                                              \
+    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,     \
+    const CutQuadrature<dim> &, const MovingGeometryParameters &);                       \
+  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &, \
+                                  MaterialPoints<dim> &);                                \
+  template MaterialPoints<dim> moved_points(                                             \
+    const MaterialPoints<dim> &, const std::vector<Body<dim>> &, const StepStart<dim> &, \
+    const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

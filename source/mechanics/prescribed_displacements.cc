@@ -6,27 +6,16 @@ namespace scree
 {
 template <int dim>
 PrescribedDisplacements<dim>::PrescribedDisplacements(const BoundarySetting<dim>      &setting,
-                                                      const std::vector<unsigned int> &own_regions)
+                                                      const std::vector<unsigned int> &own_regions,
+                                                      const bool stress_is_linear)
     : BoundaryTerm<dim>(setting, own_regions)
     , bodies(setting.bodies)
-    , bulk(setting.bulk)
-    , start(setting.start())
+    , bulk(setting.kinematics.bulk())
+    , stress_is_linear(stress_is_linear)
+    , stiffness(setting)
+    , prescribed_value(this->setting.regions, this->own_regions)
+    , moments(setting, this->own_regions, stiffness, prescribed_value)
 {
-  if (start)
-    release_edges();
-  find_moments();
-  if (start)
-    {
-      forgive_flow();
-      find_starts();
-    }
-}
-
-template <int dim>
-bool
-PrescribedDisplacements<dim>::is_nitsche(const BoundaryRegion<dim> &region) const
-{
-  return region.condition->parameters.method != DisplacementMethod::penalty;
 }
 
 template <int dim>
@@ -36,36 +25,7 @@ PrescribedDisplacements<dim>::adjoint_factor(const BoundaryRegion<dim> &region,
 {
   const auto method = region.condition->parameters.method;
   return (method == DisplacementMethod::nonsymmetric_nitsche ? 1. : -1.)
-         * flow_ratio(point.active_cell);
-}
-
-template <int dim>
-double
-PrescribedDisplacements<dim>::beta(const BoundaryRegion<dim> &region, const unsigned int q) const
-{
-  const double k = fields.basis.degree;
-  return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
-         * bodies[region.body].material->p_wave_modulus()
-         / fields.cell_size(region.points[q].active_cell);
-}
-
-template <int dim>
-double
-PrescribedDisplacements<dim>::prescribed_value(const unsigned int index, const unsigned int q,
-                                               const unsigned int k, const double time) const
-{
-  auto &[time_of_values, values] = prescribed_values;
-  if (time_of_values != time)
-    {
-      values.assign(setting.regions.size(), {});
-      for (const unsigned int r : own_regions)
-        for (const auto &point : this->region(r).points)
-          for (unsigned int i = 0; i < this->region(r).condition->components.size(); ++i)
-            values[r].push_back(
-              this->region(r).condition->value(i, point.reference_position, time));
-      time_of_values = time;
-    }
-  return values[index][q * this->region(index).condition->components.size() + k];
+         * stiffness.flow_ratio(point.active_cell);
 }
 
 template <int dim>
@@ -81,10 +41,12 @@ PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>          
   fields.evaluate_basis(point.active_cell, point.unit_point, shape);
   vectors.resize(fields.basis.n_nodes * dim);
   std::vector<double> divergence;
-  const double        projected
-    = bulk.projected_divergence(point.active_cell, point.unit_point, divergence)
-        ? bulk.projected_lambda(region.body)
-        : 0.;
+  double              projected = 0.;
+  if (bulk.is_projected(region.body))
+    {
+      divergence = bulk.projected_divergence().coefficients(point.in_cell());
+      projected  = bulk.projected_lambda(region.body);
+    }
   for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
     {
       const dealii::Tensor<1, dim> g  = shape.gradient[a];
@@ -116,19 +78,19 @@ PrescribedDisplacements<dim>::add_to_matrix(Matrix &matrix) const
         const auto &point  = region.points[q];
         block.reinit(n * dim, n * dim);
         stress_vectors(region, point, shape, stress);
-        const double adjoint   = adjoint_factor(region, point);
-        const double stiffness = beta(region, q);
+        const double adjoint = adjoint_factor(region, point);
+        const double beta    = stiffness.of_point(region, q);
         for (const unsigned int c : region.condition->components)
           {
             for (unsigned int a = 0; a < n; ++a)
               for (unsigned int b = 0; b < n; ++b)
                 block(a * dim + c, b * dim + c)
-                  += point.weight * stiffness * shape.value[a] * shape.value[b];
+                  += point.weight * beta * shape.value[a] * shape.value[b];
             for (unsigned int a = 0; is_nitsche(region) && a < n; ++a)
               for (unsigned int j = 0; j < n * dim; ++j)
                 {
                   const double entry = point.weight * shape.value[a] * stress[j][c];
-                  if (!start)
+                  if (stress_is_linear)
                     block(a * dim + c, j) -= entry;
                   block(j, a * dim + c) += adjoint * entry;
                 }
@@ -136,7 +98,7 @@ PrescribedDisplacements<dim>::add_to_matrix(Matrix &matrix) const
         fields.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
                                                                 matrix);
       }
-  add_moments_to_matrix(matrix);
+  moments.add_to_matrix(matrix);
 }
 
 template <int dim>
@@ -164,14 +126,15 @@ PrescribedDisplacements<dim>::add_loads(Vector &loads, const double time, const 
             const unsigned int c = condition.components[k];
             const double value   = prescribed_value(r, q, k, time) - point.start_displacement[c];
             for (unsigned int a = 0; a < n; ++a)
-              cell_load(a * dim + c) += point.weight * beta(region, q) * shape.value[a] * value;
+              cell_load(a * dim + c)
+                += point.weight * stiffness.of_point(region, q) * shape.value[a] * value;
             for (unsigned int j = 0; j < n * dim; ++j)
               cell_load(j) += adjoint * point.weight * stress[j][c] * value;
           }
         fields.hanging_constraints().distribute_local_to_global(cell_load, this->unknowns(point),
                                                                 loads);
       }
-  add_moment_loads(loads, time);
+  moments.add_loads(loads, time);
 }
 
 template <int dim>
@@ -179,9 +142,7 @@ bool
 PrescribedDisplacements<dim>::is_symmetric() const
 {
   return std::none_of(own_regions.begin(), own_regions.end(), [&](const unsigned int r) {
-    const auto &region = this->region(r);
-    return (start && is_nitsche(region))
-           || region.condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche;
+    return this->region(r).condition->parameters.method == DisplacementMethod::nonsymmetric_nitsche;
   });
 }
 
@@ -203,11 +164,11 @@ PrescribedDisplacements<dim>::tractions(const unsigned int index, const PointEva
       for (unsigned int k = 0; k < region.condition->components.size(); ++k)
         {
           const unsigned int c = region.condition->components[k];
-          result[q][c]
-            = of_stress[q][c]
-              - beta(region, q) * (displacement[c] - prescribed_value(index, q, k, time));
+          result[q][c]         = of_stress[q][c]
+                         - stiffness.of_point(region, q)
+                             * (displacement[c] - prescribed_value(index, q, k, time));
         }
-      result[q] += moment_traction(index, q, u, time);
+      result[q] += moments.traction(index, q, u, time);
     }
   return result;
 }
@@ -227,7 +188,7 @@ PrescribedDisplacements<dim>::energy(const PointEvaluator<dim> &u, const double 
           const auto                  &point = region.points[q];
           const dealii::Tensor<1, dim> displacement
             = point.start_displacement + u.value(point.in_cell());
-          const dealii::Tensor<1, dim> of_moments = moment_traction(r, q, u, time);
+          const dealii::Tensor<1, dim> of_moments = moments.traction(r, q, u, time);
           for (unsigned int k = 0; k < condition.components.size(); ++k)
             {
               // -(sigma n) e + beta e^2/2 with e = u - ubar and t = sigma n - beta e, and half the
@@ -235,7 +196,8 @@ PrescribedDisplacements<dim>::energy(const PointEvaluator<dim> &u, const double 
               const unsigned int c = condition.components[k];
               const double       e = displacement[c] - prescribed_value(r, q, k, time);
               sum -= point.weight
-                     * ((t[q][c] - 0.5 * of_moments[c]) * e + 0.5 * beta(region, q) * e * e);
+                     * ((t[q][c] - 0.5 * of_moments[c]) * e
+                        + 0.5 * stiffness.of_point(region, q) * e * e);
             }
         }
     }

@@ -1,4 +1,4 @@
-#include <scree/discretization/ghost_penalty.h>
+#include <scree/discretization/face_jumps.h>
 #include <scree/mechanics/reference_map.h>
 
 #include <deal.II/base/mpi.h>
@@ -201,7 +201,7 @@ private:
 
   const NodeNumbering<dim>              &nodes;
   MPI_Comm                               communicator;
-  GhostPenalty<dim>                      jumps;
+  FaceJumps<dim>                         jumps;
   dealii::TrilinosWrappers::SparseMatrix matrix;
   std::array<Vector, dim>                loads;
 };

@@ -83,8 +83,6 @@ std::optional<UserError>
 slide(const DiscreteProblem<dim> &problem, const ContactHistory<dim> &history, const double time,
       const double step_fraction)
 {
-  if (problem.is_moving())
-    return {};
   // Gap, slip in cells, and pair of the point where bodies are nearest.
   const ContactPoints<dim> &contact = problem.contact();
   const double              h       = problem.grid.finest_size();

@@ -33,8 +33,8 @@ contradict(const BoundaryCondition<dim> &a, const unsigned int value_a,
 
 template <int dim>
 StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                    const StepStart<dim> *start)
-    : start(start)
+                                    const Kinematics<dim> &kinematics)
+    : kinematics(kinematics)
     , communicator(fields.grid.communicator())
 {
   std::vector<std::vector<unsigned int>> supports_of_body(bodies.size());
@@ -83,10 +83,9 @@ StrongSupports<dim>::select(const Fields<dim> &fields, const unsigned int a,
   const auto                   &cell      = fields.grid.cells()[fields.cells()[a].grid_cell];
   for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
     {
-      const dealii::Point<dim> unit_node = fields.basis.node(i);
-      const dealii::Point<dim> position  = fields.position(a, unit_node);
-      const dealii::Point<dim> reference_position
-        = start ? start->reference_position({a, unit_node}) : position;
+      const dealii::Point<dim> unit_node          = fields.basis.node(i);
+      const dealii::Point<dim> position           = fields.position(a, unit_node);
+      const dealii::Point<dim> reference_position = kinematics.reference_position({a, unit_node});
       if (!is_prescribed_at(condition, cell, unit_node, reference_position))
         continue;
       ++selection.n_nodes;
@@ -140,32 +139,11 @@ StrongSupports<dim>::require_selections(const std::vector<Body<dim>> &bodies,
 }
 
 template <int dim>
-double
-StrongSupports<dim>::increment(const PrescribedUnknown<dim> &unknown, const double time,
-                               const double start_time) const
-{
-  const auto  &condition = *supports[unknown.support].second;
-  const double now       = condition.value(unknown.value, unknown.reference_position, time);
-  if (!start)
-    return now;
-  const double result
-    = now - condition.value(unknown.value, unknown.reference_position, start_time);
-  const bool is_vertex = condition.is_at_vertex();
-  require(result == 0. || (!is_vertex && condition.box_face / 2 != unknown.component),
-          condition.path,
-          std::string("on a moving geometry ")
-            + (is_vertex ? "a point support" : "the motion normal to a face of the box")
-            + " must be constant: the grid does not move",
-          "let the body end inside the box and prescribe the motion of its surface");
-  return result;
-}
-
-template <int dim>
 void
-StrongSupports<dim>::set(Vector &u, const double time, const double start_time) const
+StrongSupports<dim>::set(Vector &u, const double time) const
 {
   for (const auto &unknown : prescribed)
-    u(unknown.index) = increment(unknown, time, start_time);
+    u(unknown.index) = kinematics.prescribed(*supports[unknown.support].second, unknown, time);
   u.compress(dealii::VectorOperation::insert);
 }
 

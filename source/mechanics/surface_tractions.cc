@@ -5,14 +5,6 @@
 namespace scree
 {
 template <int dim>
-bool
-SurfaceTractions<dim>::is_following(const unsigned int index) const
-{
-  return this->setting.start() != nullptr
-         && this->region(index).condition->kind().law.follows_surface;
-}
-
-template <int dim>
 std::vector<SurfaceTraction<dim>>
 SurfaceTractions<dim>::evaluate(const unsigned int index, const PointEvaluator<dim> *u,
                                 const double time) const
@@ -29,7 +21,7 @@ SurfaceTractions<dim>::evaluate(const unsigned int index, const PointEvaluator<d
         continue;
       const auto here = u->evaluate(point.in_cell());
       points.back().displacement += here.value;
-      if (this->setting.start() != nullptr)
+      if (region.follows_surface)
         points.back().increment += here.gradient;
     }
   std::vector<SurfaceTraction<dim>> result(points.size());
@@ -99,7 +91,8 @@ SurfaceTractions<dim>::add_loads(Vector &loads, const double time, const bool de
                                  const bool prescribed) const
 {
   for (const unsigned int r : this->own_regions)
-    if (!is_following(r) && (this->region(r).condition->resists_motion() ? prescribed : dead_loads))
+    if (!this->region(r).follows_surface
+        && (this->region(r).condition->resists_motion() ? prescribed : dead_loads))
       add_integral(r, 1., evaluate(r, nullptr, time), loads);
 }
 
@@ -109,7 +102,7 @@ SurfaceTractions<dim>::add_internal_forces(const PointEvaluator<dim> &u, const d
                                            Vector &forces) const
 {
   for (const unsigned int r : this->own_regions)
-    if (is_following(r))
+    if (this->region(r).follows_surface)
       add_integral(r, -1., evaluate(r, &u, time), forces);
 }
 
@@ -124,7 +117,7 @@ SurfaceTractions<dim>::add_tangent(const PointEvaluator<dim> &u, const double ti
   std::vector<DofIndex>      unknowns;
   for (const unsigned int r : this->own_regions)
     {
-      if (!is_following(r))
+      if (!this->region(r).follows_surface)
         continue;
       const auto tractions = evaluate(r, &u, time);
       for (unsigned int q = 0; q < tractions.size(); ++q)
@@ -140,10 +133,17 @@ SurfaceTractions<dim>::add_tangent(const PointEvaluator<dim> &u, const double ti
 
 template <int dim>
 bool
-SurfaceTractions<dim>::is_symmetric() const
+SurfaceTractions<dim>::is_linear() const
 {
   return std::none_of(this->own_regions.begin(), this->own_regions.end(),
-                      [&](const unsigned int r) { return is_following(r); });
+                      [&](const unsigned int r) { return this->region(r).follows_surface; });
+}
+
+template <int dim>
+bool
+SurfaceTractions<dim>::is_symmetric() const
+{
+  return is_linear();
 }
 
 template <int dim>

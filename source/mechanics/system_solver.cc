@@ -15,7 +15,7 @@ SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const 
 {
   const auto n_contact_points
     = dealii::Utilities::MPI::sum(contact.points().size(), fields.grid.communicator());
-  condenses = equilibrium.is_linear_but_for_contact()
+  condenses = equilibrium.is_linear_elsewhere()
               && linear_solver.condenses(fields.n_dofs(), dim * n_contact_points)
               && !equilibrium.has_free_rigid_bodies();
   linear_solver.set_near_null_space(equilibrium.rigid_motions());

@@ -343,12 +343,13 @@ BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
 
 template <int dim>
 std::string
-BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
-                       const std::string &directory, const unsigned int number,
-                       const double time) const
+BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
+                       const dealii::TrilinosWrappers::MPI::Vector &u, const std::string &directory,
+                       const unsigned int number, const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const PointEvaluator<dim> field(fields, u);
+  const PointEvaluator<dim> field(fields, u), start = kinematics.start_displacement_field();
+  const bool                is_moved = kinematics.moves_bodies();
   Patches<dim>              output;
   output.names   = field_names<dim>();
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
@@ -361,10 +362,10 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
       for (const auto &vertex : piece.vertices)
         {
           vertices.push_back(fields.position(piece.active_cell, vertex));
-          samples.push_back(bulk.sample(piece.active_cell, vertex, field));
-          if (const auto *start = bulk.step_start())
-            vertices.back() += samples.back().displacement
-                               - start->displacement_field().value({piece.active_cell, vertex});
+          samples.push_back(kinematics.bulk().sample(piece.active_cell, vertex, field));
+          if (is_moved)
+            vertices.back()
+              += samples.back().displacement - start.value({piece.active_cell, vertex});
         }
       output.patches.push_back(
         make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
@@ -374,7 +375,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
     {
       const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
       std::vector<dealii::Point<dim>> vertices = piece.vertices;
-      if (bulk.step_start())
+      if (is_moved)
         for (auto &vertex : vertices)
           vertex += pose.displacement(vertex);
       output.patches.push_back(make_patch<dim>(vertices, piece.body, [&](const unsigned int v) {
@@ -390,7 +391,7 @@ BodyOutput<dim>::write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MP
   return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
                          fields.grid.communicator(),
                          field_datum("TimeValue", time)
-                           + field_datum("points_are_moved", bulk.step_start() ? 1. : 0.));
+                           + field_datum("points_are_moved", is_moved ? 1. : 0.));
 }
 
 template class BodyOutput<2>;

@@ -19,7 +19,7 @@ struct Moments
 template <int dim>
 std::vector<Moments<dim>>
 moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-        const CutQuadrature<dim> &quadrature, const StepStart<dim> *start,
+        const CutQuadrature<dim> &quadrature, const PointEvaluator<dim> &u_n,
         const PointEvaluator<dim> &u)
 {
   std::vector<Moments<dim>> result(bodies.size());
@@ -37,8 +37,7 @@ moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
           const PointInCell<dim> point  = {a, (cell.is_cut ? cut.points : whole.points)[q]};
           const double           weight = scale * (cell.is_cut ? cut.weights : whole.weights)[q];
           const auto             step   = u.value(point);
-          const auto             before
-            = start ? start->displacement_field().value(point) : dealii::Tensor<1, dim>();
+          const auto             before = u_n.value(point);
           const dealii::Tensor<1, dim> x
             = fields.position(a, point.unit_point) - bodies[cell.body].box.center();
           sum.volume += weight;
@@ -63,11 +62,12 @@ moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
 template <int dim>
 std::vector<MeanMotion<dim>>
 mean_motions(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-             const CutQuadrature<dim> &quadrature, const StepStart<dim> *start,
+             const CutQuadrature<dim> &quadrature, const Kinematics<dim> &kinematics,
              const dealii::TrilinosWrappers::MPI::Vector &u)
 {
   std::vector<MeanMotion<dim>> result(bodies.size());
-  const auto sums = moments(fields, bodies, quadrature, start, PointEvaluator<dim>(fields, u));
+  const auto sums = moments(fields, bodies, quadrature, kinematics.start_displacement_field(),
+                            PointEvaluator<dim>(fields, u));
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
       {
@@ -114,7 +114,7 @@ rotation_vector(const dealii::Tensor<2, dim> &matrix)
 #define SCREE_INSTANTIATE(dim)                                                       \
   template std::vector<MeanMotion<dim>> mean_motions(                                \
     const Fields<dim> &, const std::vector<Body<dim>> &, const CutQuadrature<dim> &, \
-    const StepStart<dim> *, const dealii::TrilinosWrappers::MPI::Vector &);          \
+    const Kinematics<dim> &, const dealii::TrilinosWrappers::MPI::Vector &);         \
   template dealii::Tensor<1, 3> rotation_vector(const dealii::Tensor<2, dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -129,7 +129,7 @@ Results<dim>::left_out(const Equilibrium<dim> &equilibrium, const ContactPoints<
     return {};
   const auto            names = pair_columns<dim>(pairs);
   std::set<std::string> result(names.begin(), names.end());
-  if (!equilibrium.is_linear_but_for_contact())
+  if (equilibrium.kinematics.moves_bodies())
     {
       const auto transfers = transfer_columns<dim>(pairs);
       result.insert(transfers.begin(), transfers.end());
@@ -154,7 +154,7 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   for (const auto &body : bodies)
     if (body.is_rigid())
       add_rigid_names<dim>(body.name, names);
-  const bool is_moving = !equilibrium.is_linear_but_for_contact();
+  const bool is_moving = equilibrium.kinematics.moves_bodies();
   for (const auto &body : bodies)
     if (!body.is_rigid())
       names.push_back(body.name + (is_moving ? ".start_volume" : ".volume"));
@@ -231,22 +231,22 @@ template <int dim>
 void
 Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
                              const ContactPoints<dim> &contact,
-                             const CutQuadrature<dim> &quadrature, const Bulk<dim> &bulk,
-                             const Vector &u)
+                             const CutQuadrature<dim> &quadrature, const Vector &u)
 {
+  const Kinematics<dim> &kinematics = equilibrium.kinematics;
   if (history_names.empty())
     {
       // They stay: pairs that come and go have no columns.
       history_names  = history_columns(equilibrium, contact);
       names_left_out = left_out(equilibrium, contact);
     }
-  is_moving            = !equilibrium.is_linear_but_for_contact();
-  const auto ghosted_u = equilibrium.with_ghosts(u);
-  const auto summaries = summarise_contact(contact, fields->grid.communicator());
-  auto       motions   = mean_motions(*fields, bodies, quadrature, bulk.step_start(), ghosted_u);
-  std::vector<double> &values = history_row;
-  values                      = {record.time, double(record.step), double(record.newton_iterations),
-                                 double(record.attempts), double(record.linear_iterations)};
+  is_moving                      = kinematics.moves_bodies();
+  const auto           ghosted_u = equilibrium.with_ghosts(u);
+  const auto           summaries = summarise_contact(contact, fields->grid.communicator());
+  auto                 motions   = mean_motions(*fields, bodies, quadrature, kinematics, ghosted_u);
+  std::vector<double> &values    = history_row;
+  values = {record.time, double(record.step), double(record.newton_iterations),
+            double(record.attempts), double(record.linear_iterations)};
   for (unsigned int p = 0; p < pairs_with_columns(contact).size(); ++p)
     {
       const auto &summary = summaries[p];
@@ -268,7 +268,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
       add_resultant<dim>(state.displacement, state.rotation, values);
       add_resultant<dim>(state.force, state.moment, values);
     }
-  const std::vector<double> volumes = bulk.volumes();
+  const std::vector<double> volumes = kinematics.bulk().volumes();
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
       values.push_back(volumes[b]);
@@ -323,17 +323,18 @@ Results<dim>::write_history()
 
 template <int dim>
 bool
-Results<dim>::write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
+Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kinematics,
+                           const Vector &ghosted_u)
 {
   if (!body_output)
     body_output = std::make_unique<BodyOutput<dim>>(*fields, *nodes, bodies);
   bool is_written = add_picture(
-    record.time, body_output->write(bulk, ghosted_u, directory, record.step, record.time),
+    record.time, body_output->write(kinematics, ghosted_u, directory, record.step, record.time),
     "bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {
-        const auto rows = sample_probe(probe, bulk, ghosted_u);
+        const auto rows = sample_probe(probe, kinematics, ghosted_u);
         if (!is_first)
           continue;
         CsvTable table(directory + "/line_" + probe.name + "_"
@@ -358,30 +359,31 @@ Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &
 
 template <int dim>
 std::vector<std::vector<double>>
-Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Bulk<dim> &bulk,
+Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Kinematics<dim> &kinematics,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), *fields, bulk, ghosted_u,
-                bulk.step_start() == nullptr);
+  return sample(probe, body_index(probe.body), *fields, kinematics.bulk(), ghosted_u,
+                !kinematics.moves_bodies());
 }
 
 template <int dim>
 void
-Results<dim>::require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const
+Results<dim>::require_probes(const Kinematics<dim> &kinematics, const Vector &ghosted_u) const
 {
   for (const auto &probe : probes)
-    sample(probe, body_index(probe.body), *fields, bulk, ghosted_u, true);
+    sample(probe, body_index(probe.body), *fields, kinematics.bulk(), ghosted_u, true);
 }
 
 template <int dim>
 void
-Results<dim>::write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u)
+Results<dim>::write_probes(const StepRecord &record, const Kinematics<dim> &kinematics,
+                           const Vector &ghosted_u)
 {
   probe_row.clear();
   for (const auto &probe : probes)
     if (probe.n_points == 1)
       {
-        const auto row = sample_probe(probe, bulk, ghosted_u).front();
+        const auto row = sample_probe(probe, kinematics, ghosted_u).front();
         probe_row.insert(probe_row.end(), row.begin(), row.end());
       }
   if (!is_first || probe_row.empty())
@@ -423,7 +425,7 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
   history          = std::make_unique<CsvTable>(directory + "/history.csv",
                                        kept(names, names, left_out(equilibrium, contact)),
                                        record.n_history_rows);
-  long_tables.resume(record.long_tables, !equilibrium.is_linear_but_for_contact(),
+  long_tables.resume(record.long_tables, equilibrium.kinematics.moves_bodies(),
                      pairs_change || !contact.pairs().empty());
   if (record.n_probe_rows > 0)
     probe_table = std::make_unique<CsvTable>(directory + "/probes.csv", probe_table_columns(),

@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/linear_prediction.h>
+#include <scree/mechanics/total_kinematics.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
@@ -53,11 +54,13 @@ struct EquilibriumModel
       : input(text)
       , cut(input.bodies, communicator)
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
+      , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
+      , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts)
+      , bulk(kinematics.bulk())
+      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                 input.contact.shift * cut.grid.finest_size())
-      , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
+      , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
       , linear_solver(input.linear, dim, cut.fields->basis.degree)
   {
     state.displacement = zero_displacement(*cut.fields);
@@ -137,16 +140,18 @@ struct EquilibriumModel
             std::sqrt(dealii::Utilities::MPI::sum(norm, communicator))};
   }
 
-  EquilibriumInput<dim> input;
-  CutBodies<dim>        cut;
-  CutQuadrature<dim>    quadrature;
-  Bulk<dim>             bulk;
-  BoundaryTerms<dim>    boundary_terms;
-  ContactPoints<dim>    contact;
-  Equilibrium<dim>      equilibrium;
-  LinearSolver          linear_solver;
-  State<dim>            state;
-  unsigned int          linear_iterations = 0; //!< of the last system
+  EquilibriumInput<dim>                         input;
+  CutBodies<dim>                                cut;
+  CutQuadrature<dim>                            quadrature;
+  std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
+  TotalKinematics<dim>                          kinematics;
+  const Bulk<dim>                              &bulk;
+  BoundaryTerms<dim>                            boundary_terms;
+  ContactPoints<dim>                            contact;
+  Equilibrium<dim>                              equilibrium;
+  LinearSolver                                  linear_solver;
+  State<dim>                                    state;
+  unsigned int                                  linear_iterations = 0; //!< of the last system
 };
 
 /** Section Contact with one law for all pairs. */

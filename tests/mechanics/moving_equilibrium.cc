@@ -337,7 +337,7 @@ check_edges_of_regions()
       const auto         &region = elastic.boundary_terms.regions()[r];
       std::vector<double> covered(elastic.cut.fields->n_owned_cells(), 0.);
       set_coverage(*elastic.cut.fields, *elastic.cut.level_set_nodes, elastic.cut.bodies[0], region,
-                   elastic.start, covered);
+                   elastic.kinematics, covered);
       const auto is_outer = outer_edge(*elastic.cut.fields, covered);
       const auto along    = [&](const unsigned int a) {
         return std::lround(

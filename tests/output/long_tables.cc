@@ -68,7 +68,8 @@ collectives_of_tables(const unsigned int n)
   EXPECT_EQ(summarise_contact(model.contact, MPI_COMM_WORLD).size(), model.contact.pairs().size());
   EXPECT_EQ(model.boundary_terms.resultants({*model.cut.fields, u}, 0.).size(), 2 * n * n);
   EXPECT_EQ(
-    mean_motions<2>(*model.cut.fields, model.cut.bodies, model.quadrature, nullptr, u).size(),
+    mean_motions<2>(*model.cut.fields, model.cut.bodies, model.quadrature, model.kinematics, u)
+      .size(),
     n * n);
   return n_collectives;
 }
@@ -131,7 +132,7 @@ TEST(LongTablesMPI, MotionOfADisc)
             u(fields.nodes(a)[i] + c) = (A * x + b)[c];
       }
   u.compress(VectorOperation::insert);
-  const auto motion = mean_motions<2>(fields, model.cut.bodies, model.quadrature, nullptr,
+  const auto motion = mean_motions<2>(fields, model.cut.bodies, model.quadrature, model.kinematics,
                                       model.equilibrium.with_ghosts(u))[0];
   // The polygon that approximates the disc is not quite symmetric.
   const Tensor<1, 2> centroid = motion.position - motion.displacement;

@@ -220,8 +220,9 @@ TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
       {{"disc", ball_text("0, 0", 0.7)
                   + conditions_text({{"held", "set On = surface\nset Value = 0; 0"}})}}));
   const BodyOutput<2> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
-  const std::string   name = output.write(
-      model.bulk, model.equilibrium.with_ghosts(model.state.displacement), directory.path, 0, 0.5);
+  const std::string   name
+    = output.write(model.kinematics, model.equilibrium.with_ghosts(model.state.displacement),
+                   directory.path, 0, 0.5);
   EXPECT_EQ(name, "bodies_0000.vtu");
   const std::string text = content(directory.path + "/" + name);
   EXPECT_NE(text.find("displacement"), std::string::npos);

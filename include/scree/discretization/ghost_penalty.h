@@ -1,62 +1,36 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
-
-#include <deal.II/lac/full_matrix.h>
-
-#include <map>
-#include <vector>
+#include <scree/discretization/face_jumps.h>
+#include <scree/discretization/small_cut_treatment.h>
 
 namespace scree
 {
-/** A face of a cut cell shared with another active cell of the same body, seen from the finer cell.
- */
-struct GhostFace
-{
-  unsigned int cell;     //!< active cell, never coarser than the neighbour
-  unsigned int neighbor; //!< active cell
-  unsigned int face;     //!< of `cell`, in deal.II's order x-, x+, y-, ...
-};
-
 /**
- * The ghost penalty without its stiffness, s_h(w, v) = sum_F sum_j c_j int_F h^(2j-1) [d_n^j
- * w].[d_n^j v] over the faces of cut cells, j = 1..k, c_1 = 1, c_2 = 1/4, h the edge of the finer
- * cell (Burman 2010; theory.md section 6). It makes condition numbers independent of the cut.
+ * The ghost penalty gamma E rho s_h(u, v), s_h the jumps over faces of cut cells, E the stiffness
+ * of the body and rho the smaller ratio of the two cells of a face: condition numbers do not depend
+ * on the cut (Burman 2010; theory.md section 6).
  */
 template <int dim>
-class GhostPenalty
+class GhostPenalty : public SmallCutTreatment<dim>
 {
 public:
-  explicit GhostPenalty(const Fields<dim> &fields);
+  using typename SmallCutTreatment<dim>::Matrix;
 
-  /** The faces that this process integrates, each once over all processes. */
-  const std::vector<GhostFace> &faces() const
-  {
-    return ghost_faces;
-  }
+  /** @param factor gamma */
+  GhostPenalty(const Fields<dim> &fields, const double factor);
 
-  /**
-   * The matrix of a face for one displacement component; first the nodes of the cell, then those
-   * of the neighbour.
-   */
-  dealii::FullMatrix<double> matrix(const GhostFace &face);
+  std::vector<std::vector<DofIndex>> couplings() const override;
 
-  /** The same on the distinct nodes of the two cells. */
-  struct Block
-  {
-    std::vector<DofIndex>      nodes;
-    dealii::FullMatrix<double> matrix;
-  };
-  Block block(const GhostFace &face);
+  void add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) const override;
+
+  double energy(const CutStiffness &stiffness, const PointEvaluator<dim> &u) const override;
 
 private:
-  dealii::FullMatrix<double> unit_matrix(const unsigned int            face,
-                                         const dealii::Tensor<1, dim> &offset,
-                                         const double                  ratio) const;
+  /** gamma E rho of a face. */
+  double factor_of(const GhostFace &face, const CutStiffness &stiffness) const;
 
-  const Fields<dim>     &fields;
-  std::vector<GhostFace> ghost_faces;
-  /** Matrices for unit cell edge by (face, position in a coarser neighbour). */
-  std::map<std::pair<unsigned int, unsigned int>, dealii::FullMatrix<double>> unit_matrices;
+  const Fields<dim>   &fields;
+  const double         gamma;
+  const FaceJumps<dim> jumps;
 };
 } // namespace scree

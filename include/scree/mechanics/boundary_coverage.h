@@ -14,7 +14,7 @@ namespace scree
 template <int dim>
 void set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                   const Body<dim> &body, const BoundaryRegion<dim> &region,
-                  const StepStart<dim> &start, std::vector<double> &coverage);
+                  const Kinematics<dim> &kinematics, std::vector<double> &coverage);
 
 /**
  * Whether each owned cell K is on the edge of a region and outside of it rather than inside:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <scree/discretization/cut_quadrature.h>
-#include <scree/mechanics/step_start.h>
+#include <scree/mechanics/kinematics.h>
 
 #include <vector>
 
@@ -16,9 +16,9 @@ struct BoundaryPoint
   dealii::Point<dim>     position;
   dealii::Tensor<1, dim> normal; //!< out of the body
   double                 weight; //!< length or area
-  // On a moving geometry what the point was at the start of the run and did since then.
+  // What the point was at the start of the run and did since then.
   dealii::Point<dim>     reference_position; //!< where formulas are evaluated
-  dealii::Tensor<1, dim> start_displacement; //!< u_n [L]; what flows: BoundaryTerms
+  dealii::Tensor<1, dim> start_displacement; //!< u_n [L]; what flows: forgive_flow()
   double                 area_ratio = 1.;    //!< of reference area to area at the start of the step
 
   PointInCell<dim> in_cell() const
@@ -38,7 +38,17 @@ struct BoundaryRegion
   dealii::Point<dim>              centre;           //!< of the region, over all processes
   double                          polar_moment;     //!< int x^2 + y^2 about the centre, likewise
   unsigned int                    first_multiplier; //!< of a mean support
+  bool                            follows_surface;  //!< see Kinematics
 };
+
+/** Whether Nitsche's method prescribes the displacement of a region. */
+template <int dim>
+bool
+is_nitsche(const BoundaryRegion<dim> &region)
+{
+  return region.condition->prescribes_displacement()
+         && region.condition->parameters.method != DisplacementMethod::penalty;
+}
 
 /** Squared distance of a point from the axis of the mean rotation: z through the centre. */
 template <int dim>
@@ -46,16 +56,15 @@ double squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &
 
 /**
  * The regions of all conditions that are integrals, on this process: points on the cut surface, or
- * of {phi < 0} on a face of the box. On a moving geometry the formulas of the regions see the
- * reference positions, so that regions move with their bodies. Mean supports number their
- * multipliers in this order.
+ * of {phi < 0} on a face of the box. The formulas of the regions see the reference positions of the
+ * kinematics, so that regions move with their bodies. Mean supports number their multipliers in
+ * this order.
  *
- * @param start of the step; null on a fixed geometry
  * @throws UserError if a region selects nothing
  */
 template <int dim>
 std::vector<BoundaryRegion<dim>>
 find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                       const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                      const StepStart<dim> *start);
+                      const Kinematics<dim> &kinematics);
 } // namespace scree

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <scree/mechanics/boundary_regions.h>
-#include <scree/mechanics/bulk.h>
 #include <scree/mechanics/resultant.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -13,23 +15,15 @@ namespace scree
 template <int dim>
 struct BoundarySetting
 {
-  const Fields<dim>                &fields;
-  const LevelSetNodes<dim>         &level_set_nodes;
-  const std::vector<Body<dim>>     &bodies;
-  const Bulk<dim>                  &bulk;       //!< stresses see its projected volume changes
-  double                            start_time; //!< of the step, on a moving geometry
-  std::vector<BoundaryRegion<dim>> &regions;    //!< of all terms
-
-  /** The start of the step, null on a fixed geometry. */
-  const StepStart<dim> *start() const
-  {
-    return bulk.step_start();
-  }
+  const Fields<dim>                      &fields;
+  const std::vector<Body<dim>>           &bodies;
+  const Kinematics<dim>                  &kinematics;
+  const std::vector<BoundaryRegion<dim>> &regions; //!< of all terms
 };
 
 /**
  * The part of the conditions of one Imposition in the equations: what is linear in u as a matrix
- * and loads, and on a moving geometry what is not as forces and their derivative.
+ * and loads, what is not as forces and their derivative.
  */
 template <int dim>
 class BoundaryTerm
@@ -49,7 +43,10 @@ public:
   virtual void add_loads(Vector &loads, const double time, const bool dead_loads,
                          const bool prescribed) const = 0;
 
-  /** Adds what is not linear on a moving geometry. */
+  /** Whether add_to_matrix() has all of it; true unless overridden, with the next two. */
+  virtual bool is_linear() const;
+
+  /** Adds what is not linear; nothing unless overridden. */
   virtual void add_internal_forces(const PointEvaluator<dim> &u, const double time,
                                    Vector &forces) const;
 

@@ -8,10 +8,8 @@ namespace scree
 {
 /**
  * All boundary conditions that are integrals over a region: the sum of a BoundaryTerm for each way
- * in which conditions enter the equations (theory.md section 7).
- *
- * On a fixed geometry all of them are linear in u. On a moving one u is the increment since the
- * start of the step, and conditions act on u_n + u.
+ * in which conditions enter the equations (theory.md section 7). They act on the displacement
+ * u_n + u since the start of the run.
  */
 template <int dim>
 class BoundaryTerms
@@ -20,13 +18,12 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /**
-   * @param bulk       of these bodies: stresses see its projected volume changes
-   * @param start_time of the step, on a moving geometry
+   * @param kinematics of these bodies: stresses are those of its bulk
    * @throws UserError if a region selects nothing
    */
   BoundaryTerms(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
                 const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                const Bulk<dim> &bulk, const double start_time = 0.);
+                const Kinematics<dim> &kinematics);
 
   BoundaryTerms(const BoundaryTerms &)            = delete; // terms refer to the regions
   BoundaryTerms &operator=(const BoundaryTerms &) = delete;
@@ -49,7 +46,7 @@ public:
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const;
 
-  /** Adds what is not linear on a moving geometry, at the increment u and time `time`. */
+  /** Adds what is not linear, at u and time `time`. */
   void add_internal_forces(const PointEvaluator<dim> &u, const double time, Vector &forces) const;
 
   /** Adds its derivative. */
@@ -58,6 +55,9 @@ public:
 
   /** Nodes that couple through multiplier rows, as unknowns. */
   std::vector<std::vector<DofIndex>> multiplier_couplings() const;
+
+  /** Whether the matrix has all of it. */
+  bool is_linear() const;
 
   /** Whether the matrix stays symmetric and positive definite. */
   bool is_symmetric() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/step_start.h>
 #include <scree/mechanics/system_solver.h>
 
 #include <memory>
@@ -19,8 +20,8 @@ struct ProblemParameters
 };
 
 /**
- * The discrete problem of the bodies where they are: unknowns, cut quadrature, start of the step on
- * a moving geometry, bulk, boundary conditions, contact points, equations and their solver
+ * The discrete problem of the bodies where they are: unknowns, cut quadrature, kinematics and its
+ * bulk, boundary conditions, contact points, equations and their solver
  * (theory.md section 3, steps 1 to 4). Its parts refer to each other; it is made and destroyed as a
  * whole, on a grid and bodies that outlive it and do not change meanwhile. Only the contact points,
  * which depend on the slip that is expected in the step, may be found anew.
@@ -73,20 +74,23 @@ public:
     return grid.communicator();
   }
 
-  const ProblemParameters               parameters;
-  const BackgroundGrid<dim>            &grid;
-  const std::vector<Body<dim>>         &bodies;
-  const std::vector<ContactPair>       &pairs;
-  const LevelSetNodes<dim>              level_set_nodes;
-  const Fields<dim>                     fields;
-  const CutQuadrature<dim>              quadrature;
-  const std::unique_ptr<StepStart<dim>> step_start; //!< null on a fixed geometry
-  Bulk<dim>                             bulk;
-  const BoundaryTerms<dim>              boundary_terms;
+  const ProblemParameters                             parameters;
+  const BackgroundGrid<dim>                          &grid;
+  const std::vector<Body<dim>>                       &bodies;
+  const std::vector<ContactPair>                     &pairs;
+  const LevelSetNodes<dim>                            level_set_nodes;
+  const Fields<dim>                                   fields;
+  const CutQuadrature<dim>                            quadrature;
+  const std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
+  const std::unique_ptr<const Kinematics<dim>>        kinematics;
+  const Bulk<dim>                                    &bulk; //!< of the kinematics
+  const BoundaryTerms<dim>                            boundary_terms;
 
 private:
-  /** On a moving geometry; see the constructor. */
-  std::unique_ptr<StepStart<dim>> start_of_step(State<dim> &state) const;
+  /** Here it is chosen what u means; see the constructor. */
+  std::unique_ptr<const Kinematics<dim>> make_kinematics(State<dim> &state, Timings &timings) const;
+  /** On a moving geometry. */
+  std::unique_ptr<const StepStart<dim>> start_of_step(State<dim> &state) const;
 
   /** What depends on the contact points. */
   struct Equations

@@ -3,9 +3,8 @@
 #include <scree/mechanics/body_balance.h>
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/mechanics/condensation.h>
+#include <scree/mechanics/energy_ledger.h>
 #include <scree/mechanics/free_bodies.h>
-#include <scree/mechanics/rigid_bodies.h>
-#include <scree/state/state.h>
 
 #include <optional>
 #include <string>
@@ -19,9 +18,8 @@ namespace scree
  * kept in u and eliminated from K, so that the terms also give their reactions (theory.md sections
  * 3, 7, 8). Rigid bodies have rows without A, their loads f depend on the pose.
  *
- * On a fixed geometry u is the total displacement, A holds bulk, ghost penalty, Nitsche, springs
- * and multipliers, and R = 0. On a moving one u is the increment since the start of the step (of
- * rigid bodies the whole motion) and R holds the laws in increments and what follows the surface.
+ * What u of deformable bodies means, and what of bulk and boundary conditions is in A or R, is up
+ * to the Kinematics; of rigid bodies u is the whole motion.
  */
 template <int dim>
 class Equilibrium
@@ -33,12 +31,13 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, Bulk<dim> &bulk,
-              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact);
+  Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+              const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
+              ContactPoints<dim> &contact);
 
   /**
-   * Starts a step on a moving geometry at the state `u` of time `time`: zero but for rigid bodies
-   * and multipliers.
+   * Starts a step with equations of its own at the state `u` of time `time`: zero but for rigid
+   * bodies and multipliers.
    *
    * @param energies at the end of the step before: what the motion of the geometry changed in them
    *                 is Energies::transfer
@@ -50,9 +49,12 @@ public:
                   const Energies &energies, const DrivingForces<dim> *driving);
 
   /** What drives bodies at the accepted state (collective). */
-  DrivingForces<dim> driving_forces() const;
+  DrivingForces<dim> driving_forces() const
+  {
+    return ledger.driving_forces();
+  }
 
-  /** Goes on after the accepted state `u` of a fixed geometry, with its time, history, energies. */
+  /** Goes on after the accepted state `u` of these equations, with its time, history, energies. */
   void resume(const double time, const Vector &u, const ContactHistory<dim> &history,
               const Energies &energies);
 
@@ -82,7 +84,10 @@ public:
   Condensation condensation(const bool only_closed);
 
   /** E at the last residual(), blocks of dim x dim. */
-  std::vector<double> tangent_changes() const;
+  std::vector<double> tangent_changes() const
+  {
+    return contact.tangent_changes();
+  }
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
@@ -102,15 +107,21 @@ public:
 
   /** Norm of the forces in balance at the last residual(), for relative tolerances. */
   double force_scale() const;
-  /** The |r| that round-off in A u (moving geometry: A x) leaves at the last residual(). */
+  /** The |r| that round-off in A u, or in the positions x of A x, leaves at the last residual(). */
   double round_off() const;
   /** The rigid motions for the near null space, see near_null_space(). */
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
-  const std::vector<FreeMotion> &free_bodies() const;
+  const std::vector<FreeMotion> &free_bodies() const
+  {
+    return free.motions();
+  }
   /** What supports and the contact of the last residual() leave to them. */
-  const FreeBodies<dim> &free_motions() const;
+  const FreeBodies<dim> &free_motions() const
+  {
+    return free;
+  }
   /**
    * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
    * their loads, of that of all |f_b| over a cell; empty: they stay.
@@ -126,7 +137,7 @@ public:
 
   bool has_free_rigid_bodies() const;
   /** How a step is tried again: residual() leaves out FreeBodies::misplaced_moments(), free bodies
-   * turn infinitesimally on a moving geometry too: contact sees u, so that gaps are linear in rigid
+   * turn infinitesimally in any case: contact sees u, so that gaps are linear in rigid
    * motions, the bulk FreeBodies::strained(u). */
   void set_second_attempt(const bool is_second);
   /** Then makes the rigid motions of u finite ones (collective). */
@@ -137,10 +148,19 @@ public:
   /** Whether r, of the last residual(), is at most `tolerance` but for moments below the accuracy
    * of geometry: 1e-4 of FreeBodies::misplaced_moments() (collective). */
   bool is_geometric(const Vector &r, const double tolerance) const;
-  /** Whether tangents change by contact alone. */
-  bool                       is_linear_but_for_contact() const;
-  const RigidBodies<dim>    &rigid_bodies() const;
-  const StrongSupports<dim> &strong_supports() const;
+  /** Whether tangents change by contact, and rigid bodies, alone. */
+  bool is_linear_elsewhere() const
+  {
+    return bulk.is_linear() && boundary_terms.is_linear();
+  }
+  const RigidBodies<dim> &rigid_bodies() const
+  {
+    return rigid;
+  }
+  const StrongSupports<dim> &strong_supports() const
+  {
+    return supports;
+  }
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -162,7 +182,12 @@ public:
   void accept(const Vector &u, const ContactHistory<dim> &old_history);
 
   /** Energies of the accepted state. */
-  const Energies &energies() const;
+  const Energies &energies() const
+  {
+    return ledger.energies();
+  }
+
+  const Kinematics<dim> &kinematics;
 
 private:
   void                                  set_up_matrices();
@@ -170,54 +195,40 @@ private:
   void                                  set_up_artificial_mass();
   bool                                  turns_infinitesimally() const;
   /** Takes FreeBodies::misplaced_moments() out of r. */
-  void         hold_moments(Vector &r);
-  void         set_zero_on_prescribed(Vector &r) const;
-  void         add_artificial_mass(Matrix &matrix) const;
-  void         eliminate_prescribed(Matrix &matrix) const;
-  void         reactions(Vector &result) const;
-  unsigned int n_rigid_unknowns() const;
-  /** External work of the step to `u`, but that of dead loads. */
-  double work_of_step(const Vector &u, const PointEvaluator<dim> &field);
-  double work_of_multipliers(const Vector &u);
-  /** Of pressures that follow the surface. */
-  double work_of_pressures(const PointEvaluator<dim> &u) const;
-  /** Of constant forces on what is prescribed, from the accepted time to now. */
-  double work_on_prescribed(const std::vector<DrivenPoint<dim>> &driven) const;
-  /** What the unbalanced forces of the start of the step release in its motion. */
-  double released_work(const Vector &motion, const ContactHistory<dim> &old_history) const;
-  bool   is_following_pressure(const BoundaryRegion<dim> &region) const;
-  void   remember_conditions(const PointEvaluator<dim> &u);
-  void   take_as_accepted(const double time, const Vector &u, const ContactHistory<dim> &history,
-                          Vector &r);
-  /** Returns the plastic dissipation since the start of the step. */
-  double store_energies(const PointEvaluator<dim> &u);
+  void hold_moments(Vector &r);
+  void set_zero_on_prescribed(Vector &r) const;
+  void add_artificial_mass(Matrix &matrix) const;
+  void eliminate_prescribed(Matrix &matrix) const;
+  void reactions(Vector &result) const;
+  /** The displacement, that of the last residual(), and what acts there. */
+  EvaluatedState<dim> evaluated(const Vector &u) const;
+  /** Sets the time and what is prescribed there in `u`, takes it as accepted; returns r(u). */
+  Vector take_as_accepted(const double time, const ContactHistory<dim> &history, Vector &u);
 
   const Fields<dim>            &fields;
   const std::vector<Body<dim>> &bodies;
-  Bulk<dim>                    &bulk;
+  const Bulk<dim>              &bulk;
   const BoundaryTerms<dim>     &boundary_terms;
   ContactPoints<dim>           &contact;
   StrongSupports<dim>           supports;
   RigidBodies<dim>              rigid;
   FreeBodies<dim>               free;
+  EnergyLedger<dim>             ledger;
 
-  Matrix stiffness;       //!< A
-  Matrix newton_matrix;   //!< K
-  Vector loads;           //!< f
-  Vector dead_loads;      //!< tractions, pressures and body forces in f
-  Vector start_forces;    //!< of the ghost penalty on the displacement at the start of a step
-  Vector internal_forces; //!< A u of the last residual()
-  Vector contact_forces;  //!< -R_contact of the last residual()
-  Vector applied_forces;  //!< on rigid bodies at the last residual()
-  Vector artificial_mass; //!< of free bodies on the diagonal, of factor 1
-  Vector ghosted;         //!< u of the last residual() with ghosts
-  PointEvaluator<dim> seen_by_bulk; //!< what the bulk sees of it
+  Matrix              stiffness;       //!< A
+  Matrix              newton_matrix;   //!< K
+  Vector              loads;           //!< f
+  Vector              dead_loads;      //!< tractions, pressures and body forces in f
+  Vector              start_forces;    //!< of what is linear in the bulk on u_n
+  Vector              internal_forces; //!< A u of the last residual()
+  Vector              contact_forces;  //!< -R_contact of the last residual()
+  Vector              applied_forces;  //!< on rigid bodies at the last residual()
+  Vector              artificial_mass; //!< of free bodies on the diagonal, of factor 1
+  Vector              ghosted;         //!< u of the last residual() with ghosts
+  PointEvaluator<dim> seen_by_bulk;    //!< what the bulk sees of it
   dealii::IndexSet    ghosted_dofs;
   double              time              = 0.;
-  double              accepted_time     = 0.;
-  bool                is_unloaded       = true; //!< nothing was prescribed at the accepted state
   bool                is_driven         = true; //!< forces act on rigid bodies
-  double              start_time        = 0.;   //!< of the step on a moving geometry
   double              drag              = 0.;
   double              mass_factor       = default_mass_factor;
   bool                is_second_attempt = false;
@@ -227,23 +238,5 @@ private:
   Vector              diagonal;                          //!< of A
   Vector              scratch;                           //!< for one function at a time
   double              stiffness_times_displacement = 0.; //!< |diagonal u| of the last residual()
-
-  // The accepted state, for the trapezoidal rule; at first the unloaded one.
-  Energies                      current_energies;
-  Vector                        accepted_u, accepted_dead_loads, accepted_reactions;
-  Vector                        accepted_prescribed; //!< right-hand sides of the multiplier rows
-  std::vector<DrivenPoint<dim>> accepted_driven;     //!< forces on what is prescribed
-  /** Tractions and displacements at the points of following pressures, else empty. */
-  std::vector<std::vector<dealii::Tensor<1, dim>>> accepted_tractions, accepted_displacements;
-
-  /** What is unbalanced at the start of a step on a moving geometry. */
-  struct Unbalanced
-  {
-    Vector                              residual; //!< of deformable bodies
-    Vector                              rigid;    //!< forces on rigid bodies, less those before
-    std::vector<DrivenPoint<dim>>       driven;   //!< forces of the fitted state
-    std::vector<dealii::Tensor<1, dim>> tau;      //!< of the contact points
-  };
-  std::optional<Unbalanced> unbalanced;
 };
 } // namespace scree

@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/discrete_problem.h>
 
+#include <limits>
 #include <vector>
 
 namespace scree
@@ -9,13 +10,14 @@ namespace scree
 /** Estimate of the error of the displacement in the energy norm. */
 struct ErrorEstimate
 {
-  std::vector<double> squares;       //!< eta_K^2 of the owned grid cells [force L]
-  double              relative = 0.; //!< sqrt(sum of eta_K^2 / (2 strain energy))
+  std::vector<double> squares; //!< eta_K^2 of the owned grid cells [force L]
+  /** sqrt(sum of eta_K^2 / (2 strain energy)); NaN: unknown */
+  double relative = std::numeric_limits<double>::quiet_NaN();
 };
 
 /**
- * Of an accepted state, by stress recovery, see recovery_errors(). NaN on a moving geometry, for
- * the recovery knows linear elasticity on a fixed one only (collective).
+ * Of an accepted state of linear elasticity on a fixed geometry, by stress recovery, see
+ * recovery_errors() (collective).
  */
 template <int dim>
 ErrorEstimate estimate_error(const DiscreteProblem<dim> &problem, const State<dim> &state);

@@ -7,16 +7,7 @@
 namespace scree
 {
 /**
- * The displacement at `time` if bodies go on as in the last step: on a fixed geometry u_n plus the
- * last increment, on a moving one the extended increment of the last step where it has carried the
- * material, both scaled to the step; rigid bodies likewise.
- */
-template <int dim>
-typename Equilibrium<dim>::Vector extrapolated(const DiscreteProblem<dim> &problem,
-                                               const State<dim> &state, const double time);
-
-/**
- * First guess of the step to `time`: of the old displacement, the extrapolated() one and, with
+ * First guess of the step to `time`: of the old displacement, Kinematics::extrapolated() and, with
  * rigid bodies, the linear_prediction(), that with the smallest residual. Sets the time of the
  * equilibrium.
  *

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <scree/mechanics/bulk.h>
+#include <scree/mechanics/incremental_bulk.h>
+#include <scree/mechanics/step_start.h>
 
 namespace scree
 {
@@ -25,10 +26,10 @@ void distribute_points(const Fields<dim> &fields, const MovingGeometryParameters
  * The material points after an increment u, with the laws' answers to F_D = I + grad u, projected
  * as those of `bulk`: x <- x + u, F <- F_D F, stresses and internal variables.
  *
- * @param points those at the start of the step, of bulk.step_start()
+ * @param points those at the start of the step, of `start`
  */
 template <int dim>
 MaterialPoints<dim> moved_points(const MaterialPoints<dim>    &points,
-                                 const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
-                                 const PointEvaluator<dim> &u);
+                                 const std::vector<Body<dim>> &bodies, const StepStart<dim> &start,
+                                 const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u);
 } // namespace scree

@@ -22,7 +22,7 @@ std::vector<PointInCell<dim>> locate_points(const Fields<dim>         &fields,
  *
  *     sum_p V_p |u(x_p) - (x_p - X_p)|^2 + gamma h^2 s_h(u, u)
  *
- * over the nodes, s_h the jumps of GhostPenalty, which continue u to nodes of cut cells that have
+ * over the nodes, s_h those of FaceJumps, which continue u to nodes of cut cells that have
  * no points; gamma = 1e-3 is small, so that a displacement of the space is its own fit but for
  * gamma times its jumps there. Since the reference positions X_p never change, no error of a
  * gradient adds up from step to step (reference map technique: Kamrin, Rycroft, Nave, J. Mech.

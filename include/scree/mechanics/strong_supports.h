@@ -21,9 +21,8 @@ struct PrescribedUnknown
 
 /**
  * Displacements imposed on unknowns: of the nodes on a face of the background box, and of single
- * vertices (theory.md section 5, box faces and supports). On a moving geometry the unknowns are
- * increments, the formulas see the reference positions, and neither motions normal to a face nor
- * those of vertices are possible, since box and grid stay.
+ * vertices (theory.md section 5, box faces and supports). The formulas see the reference positions
+ * of the kinematics, which knows what of a prescribed displacement is u.
  */
 template <int dim>
 class StrongSupports
@@ -31,12 +30,9 @@ class StrongSupports
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  /**
-   * @param start of the step on a moving geometry; null: the geometry is fixed
-   * @throws UserError if a condition selects nothing or two conditions contradict each other
-   */
+  /** @throws UserError if a condition selects nothing or two conditions contradict each other */
   StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                 const StepStart<dim> *start = nullptr);
+                 const Kinematics<dim> &kinematics);
 
   /** Body and condition of each support. */
   const std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> &conditions() const
@@ -49,11 +45,8 @@ public:
     return prescribed;
   }
 
-  /**
-   * Sets the prescribed values of time `time` in u; on a moving geometry those since `start_time`.
-   * @throws UserError for motions that are not possible there
-   */
-  void set(Vector &u, const double time, const double start_time) const;
+  /** Sets the prescribed values of time `time` in u, see Kinematics::prescribed(). */
+  void set(Vector &u, const double time) const;
 
   /** Zeros the prescribed entries. */
   void set_zero(Vector &r) const;
@@ -62,8 +55,6 @@ public:
   std::vector<Resultant<dim>> resultants(const Vector &forces) const;
 
 private:
-  double increment(const PrescribedUnknown<dim> &unknown, const double time,
-                   const double start_time) const;
   /** Of a support, on this process, then on all; counts. */
   struct Selection
   {
@@ -79,7 +70,7 @@ private:
                         const dealii::Point<dim> &unit_node,
                         const dealii::Point<dim> &position) const;
 
-  const StepStart<dim>                                                *start;
+  const Kinematics<dim>                                               &kinematics;
   MPI_Comm                                                             communicator;
   std::vector<std::pair<unsigned int, const BoundaryCondition<dim> *>> supports;
   std::vector<PrescribedUnknown<dim>>                                  prescribed;

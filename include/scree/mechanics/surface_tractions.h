@@ -6,8 +6,8 @@ namespace scree
 {
 /**
  * Conditions that are tractions: int t . v over their regions with t of their SurfaceLaw. Dead
- * loads are loads; what depends on u is a matrix and the loads t(u_n); what follows the surface is,
- * on a moving geometry, no load but forces and a tangent.
+ * loads are loads; what depends on u is a matrix and the loads t(u_n); what follows the surface is
+ * no load but forces and a tangent.
  */
 template <int dim>
 class SurfaceTractions : public BoundaryTerm<dim>
@@ -21,6 +21,8 @@ public:
 
   void add_loads(Vector &loads, const double time, const bool dead_loads,
                  const bool prescribed) const override;
+
+  bool is_linear() const override;
 
   void add_internal_forces(const PointEvaluator<dim> &u, const double time,
                            Vector &forces) const override;
@@ -36,8 +38,6 @@ public:
   double energy(const PointEvaluator<dim> &u, const double time) const override;
 
 private:
-  /** Whether the region's tractions move with the surface in this step. */
-  bool is_following(const unsigned int region) const;
   /** The law's answer at the points of a region; u null: at the start of the step. */
   std::vector<SurfaceTraction<dim>> evaluate(const unsigned int         region,
                                              const PointEvaluator<dim> *u, const double time) const;

@@ -23,9 +23,9 @@ public:
              const std::vector<Body<dim>> &bodies);
 
   /** Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted. */
-  std::string write(const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &u,
-                    const std::string &directory, const unsigned int number,
-                    const double time) const;
+  std::string write(const Kinematics<dim>                       &kinematics,
+                    const dealii::TrilinosWrappers::MPI::Vector &u, const std::string &directory,
+                    const unsigned int number, const double time) const;
 
   /**
    * A piece of a cell: a whole cell, or a simplex of positive orientation; vertices in unit

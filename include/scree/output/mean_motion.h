@@ -1,7 +1,7 @@
 #pragma once
 
 #include <scree/discretization/cut_quadrature.h>
-#include <scree/mechanics/bulk.h>
+#include <scree/mechanics/kinematics.h>
 
 #include <vector>
 
@@ -24,7 +24,7 @@ struct MeanMotion
 template <int dim>
 std::vector<MeanMotion<dim>>
 mean_motions(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-             const CutQuadrature<dim> &quadrature, const StepStart<dim> *start,
+             const CutQuadrature<dim> &quadrature, const Kinematics<dim> &kinematics,
              const dealii::TrilinosWrappers::MPI::Vector &u);
 
 /** The vector of the rotation next to a matrix M with det M > 0, the R of its polar decomposition.

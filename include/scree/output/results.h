@@ -93,7 +93,7 @@ public:
   /** Gathers the rows of an accepted state for history.csv and the long tables. */
   void gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
                       const ContactPoints<dim> &contact, const CutQuadrature<dim> &quadrature,
-                      const Bulk<dim> &bulk, const Vector &u);
+                      const Vector &u);
 
   /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
   void gather_motion(const MotionRecord<dim> &motion);
@@ -102,16 +102,18 @@ public:
   void write_history();
 
   /** Body VTU and lines; whether all was written, known to the first process. */
-  bool write_fields(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+  bool write_fields(const StepRecord &record, const Kinematics<dim> &kinematics,
+                    const Vector &ghosted_u);
 
   /** Contact CSV and VTU; whether all was written, known to the first process. */
   bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
 
   /** Throws UserError if the body of a probe has no cell at one of its points. */
-  void require_probes(const Bulk<dim> &bulk, const Vector &ghosted_u) const;
+  void require_probes(const Kinematics<dim> &kinematics, const Vector &ghosted_u) const;
 
   /** Rows of the probes in probes.csv. */
-  void write_probes(const StepRecord &record, const Bulk<dim> &bulk, const Vector &ghosted_u);
+  void write_probes(const StepRecord &record, const Kinematics<dim> &kinematics,
+                    const Vector &ghosted_u);
 
   /** Writes rows of tables that the disk refused before; whether nothing is left. */
   bool flush();
@@ -129,7 +131,7 @@ public:
 private:
   /** Samples of a probe; on a moving geometry NaN where its body is no more. */
   std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
-                                                const Bulk<dim>            &bulk,
+                                                const Kinematics<dim>      &kinematics,
                                                 const Vector               &ghosted_u) const;
   std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
                                                    const ContactPoints<dim> &contact) const;

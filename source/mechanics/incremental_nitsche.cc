@@ -1,44 +1,55 @@
-#include <scree/mechanics/prescribed_displacements.h>
+#include <scree/mechanics/incremental_nitsche.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
-// On a moving geometry: Nitsche's method with the stress vector of the law.
 namespace scree
 {
 template <int dim>
-void
-PrescribedDisplacements<dim>::find_starts()
+IncrementalNitsche<dim>::IncrementalNitsche(const BoundarySetting<dim>      &setting,
+                                            const std::vector<unsigned int> &own_regions,
+                                            const IncrementalBulk<dim>      &bulk,
+                                            const BulkQuadrature<dim>       &quadrature)
+    : PrescribedDisplacements<dim>(setting, own_regions, false)
+    , bulk(bulk)
+    , starts(setting.regions.size())
 {
-  std::vector<PointInCell<dim>> points;
-  for (const unsigned int r : own_regions)
-    if (is_nitsche(this->region(r)))
-      for (const auto &point : this->region(r).points)
-        points.push_back({point.active_cell, point.unit_point});
-  const auto histories = start->histories(points);
-  auto       history   = histories.begin();
-  starts.resize(setting.regions.size());
-  for (const unsigned int r : own_regions)
-    if (is_nitsche(this->region(r)))
-      for (unsigned int q = 0; q < this->region(r).points.size(); ++q)
-        starts[r].push_back(bodies[this->region(r).body].law->start(*history++));
+  std::copy_if(own_regions.begin(), own_regions.end(), std::back_inserter(nitsche_regions),
+               [&](const unsigned int r) { return is_nitsche(this->region(r)); });
+  find_starts(quadrature);
 }
 
 template <int dim>
-const typename PrescribedDisplacements<dim>::Answers &
-PrescribedDisplacements<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
+void
+IncrementalNitsche<dim>::find_starts(const BulkQuadrature<dim> &quadrature)
+{
+  std::vector<PointInCell<dim>> points;
+  for (const unsigned int r : nitsche_regions)
+    for (const auto &point : this->region(r).points)
+      points.push_back(point.in_cell());
+  const auto histories = quadrature.histories(points);
+  auto       history   = histories.begin();
+  for (const unsigned int r : nitsche_regions)
+    for (unsigned int q = 0; q < this->region(r).points.size(); ++q)
+      starts[r].push_back(bodies[this->region(r).body].law->start(*history++));
+}
+
+template <int dim>
+const typename IncrementalNitsche<dim>::Answers &
+IncrementalNitsche<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
 {
   if (!last.renew(u, with_tangents))
     return last;
-  last.of_points.resize(setting.regions.size());
-  for (const unsigned int r : own_regions)
-    if (is_nitsche(this->region(r)))
-      ask(r);
+  last.of_points.resize(starts.size());
+  for (const unsigned int r : nitsche_regions)
+    ask(r);
   return last;
 }
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::ask(const unsigned int index) const
+IncrementalNitsche<dim>::ask(const unsigned int index) const
 {
   const auto                         &region  = this->region(index);
   const unsigned int                  n       = region.points.size();
@@ -56,8 +67,8 @@ PrescribedDisplacements<dim>::ask(const unsigned int index) const
       const dealii::Tensor<2, dim> F_D = identity + last.u->gradient({active_cell, unit_point});
       increments[q]                    = F_D;
       if (is_projected(q))
-        changes[q] = bulk.volume_change(active_cell, unit_point, volumes[active_cell], F_D,
-                                        starts[index][q], increments[q]);
+        changes[q] = bulk.volume_projection().change(active_cell, unit_point, volumes[active_cell],
+                                                     F_D, starts[index][q], increments[q]);
     }
   bodies[region.body].law->respond(dealii::make_array_view(increments.begin(), increments.end()),
                                    dealii::ArrayView<const IncrementStart>(starts[index].data(), n),
@@ -84,53 +95,32 @@ PrescribedDisplacements<dim>::ask(const unsigned int index) const
 }
 
 template <int dim>
-dealii::Tensor<1, dim>
-PrescribedDisplacements<dim>::linear_stress_vector(const BoundaryRegion<dim> &region,
-                                                   const BoundaryPoint<dim>  &point,
-                                                   const PointEvaluator<dim> &u) const
-{
-  const auto                  &material  = *bodies[region.body].material;
-  const double                 projected = bulk.projected_lambda(region.body);
-  const dealii::Tensor<2, dim> gradient  = u.gradient(point.in_cell());
-  double                       pressure  = (material.lame_lambda() - projected) * trace(gradient);
-  if (projected > 0.)
-    pressure += projected * bulk.projected_divergence(point.in_cell(), u);
-  return pressure * point.normal
-         + material.shear_modulus() * (gradient + transpose(gradient)) * point.normal;
-}
-
-template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-PrescribedDisplacements<dim>::fluxes(const unsigned int index, const PointEvaluator<dim> &u) const
+IncrementalNitsche<dim>::fluxes(const unsigned int index, const PointEvaluator<dim> &u) const
 {
-  const auto                         &region = this->region(index);
+  const auto                         &points    = this->region(index).points;
+  const auto                         &of_points = answers(u, false).of_points[index];
   std::vector<dealii::Tensor<1, dim>> result;
-  result.reserve(region.points.size());
-  const auto *of_points = start ? &answers(u, false).of_points[index] : nullptr;
-  for (unsigned int q = 0; q < region.points.size(); ++q)
-    result.push_back(of_points ? (*of_points)[q].piola * region.points[q].normal
-                               : linear_stress_vector(region, region.points[q], u));
+  result.reserve(points.size());
+  for (unsigned int q = 0; q < points.size(); ++q)
+    result.push_back(of_points[q].piola * points[q].normal);
   return result;
 }
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &u,
-                                                  const double /*time*/, Vector &forces) const
+IncrementalNitsche<dim>::add_internal_forces(const PointEvaluator<dim> &u, const double /*time*/,
+                                             Vector                    &forces) const
 {
-  if (!start)
-    return;
   const auto        &of_points = answers(u, std::exchange(last.expects_tangent, false)).of_points;
   const unsigned int n         = fields.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
 
   std::array<double, max_nodes_per_cell<dim>> shape;
-  for (const unsigned int r : own_regions)
+  for (const unsigned int r : nitsche_regions)
     {
       const auto &region = this->region(r);
-      if (!is_nitsche(region))
-        continue;
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto                  &point = region.points[q];
@@ -148,11 +138,11 @@ PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &u,
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::set_point_tangent(const BoundaryRegion<dim>  &region,
-                                                const BoundaryPoint<dim>   &point,
-                                                const PointAnswer          &answer,
-                                                const VolumeDerivatives    *volume,
-                                                dealii::FullMatrix<double> &block) const
+IncrementalNitsche<dim>::set_point_tangent(const BoundaryRegion<dim>  &region,
+                                           const BoundaryPoint<dim>   &point,
+                                           const PointAnswer          &answer,
+                                           const VolumeDerivatives    *volume,
+                                           dealii::FullMatrix<double> &block) const
 {
   const unsigned int n = fields.basis.n_nodes;
   ShapeValues<dim>   shape;
@@ -166,7 +156,7 @@ PrescribedDisplacements<dim>::set_point_tangent(const BoundaryRegion<dim>  &regi
   if (volume == nullptr)
     return;
   const dealii::Tensor<1, dim> by_volume = answer.by_volume * point.normal;
-  const auto                   psi       = bulk.volume_modes(point.active_cell)(point.unit_point);
+  const auto psi = bulk.volume_projection().modes(point.active_cell)(point.unit_point);
   for (unsigned int j = 0; j < n * dim; ++j)
     {
       double value = 0.; // derivative of the projected volume change
@@ -180,11 +170,9 @@ PrescribedDisplacements<dim>::set_point_tangent(const BoundaryRegion<dim>  &regi
 
 template <int dim>
 void
-PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const double /*time*/,
-                                          Matrix                    &matrix) const
+IncrementalNitsche<dim>::add_tangent(const PointEvaluator<dim> &u, const double /*time*/,
+                                     Matrix                    &matrix) const
 {
-  if (!start)
-    return;
   const auto &of_points              = answers(u, true).of_points;
   const auto &volumes                = bulk.cell_volumes(u);
   last.expects_tangent               = true;
@@ -193,11 +181,9 @@ PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const do
   VolumeDerivatives          volume;
   dealii::FullMatrix<double> block(n * dim, n * dim);
   std::vector<DofIndex>      unknowns;
-  for (const unsigned int r : own_regions)
+  for (const unsigned int r : nitsche_regions)
     {
       const auto &region = this->region(r);
-      if (!is_nitsche(region))
-        continue;
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto &point        = region.points[q];
@@ -205,7 +191,7 @@ PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const do
           if (is_projected && of_cell != point.active_cell)
             {
               of_cell = point.active_cell;
-              volume  = bulk.volume_derivatives(of_cell, u);
+              volume  = bulk.volume_projection().derivatives(of_cell, u);
             }
           set_point_tangent(region, point, of_points[r][q], is_projected ? &volume : nullptr,
                             block);
@@ -215,15 +201,20 @@ PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &u, const do
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template void                                PrescribedDisplacements<dim>::find_starts();      \
-  template std::vector<dealii::Tensor<1, dim>> PrescribedDisplacements<dim>::fluxes(             \
-    const unsigned int, const PointEvaluator<dim> &) const;                                      \
-  template void PrescribedDisplacements<dim>::add_internal_forces(const PointEvaluator<dim> &,   \
-                                                                  const double, Vector &) const; \
-  template void PrescribedDisplacements<dim>::add_tangent(const PointEvaluator<dim> &,           \
-                                                          const double, Matrix &) const;
+template <int dim>
+bool
+IncrementalNitsche<dim>::is_linear() const
+{
+  return nitsche_regions.empty();
+}
 
-SCREE_INSTANTIATE(2)
-SCREE_INSTANTIATE(3)
+template <int dim>
+bool
+IncrementalNitsche<dim>::is_symmetric() const
+{
+  return nitsche_regions.empty();
+}
+
+template class IncrementalNitsche<2>;
+template class IncrementalNitsche<3>;
 } // namespace scree

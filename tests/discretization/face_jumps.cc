@@ -1,7 +1,7 @@
 // The ghost penalty vanishes for polynomials of its degree and has the documented size for others.
 #include <gtest/gtest.h>
 
-#include <scree/discretization/ghost_penalty.h>
+#include <scree/discretization/face_jumps.h>
 
 #include <cmath>
 
@@ -49,13 +49,13 @@ void
 check_polynomials(const unsigned int degree, const unsigned int finest_level)
 {
   const CutBodies<dim> model(cut_ball<dim>(degree, finest_level));
-  GhostPenalty<dim>    ghost_penalty(*model.fields);
+  FaceJumps<dim>       face_jumps(*model.fields);
   unsigned int         n_hanging = 0;
-  for (const GhostFace &face : ghost_penalty.faces())
+  for (const GhostFace &face : face_jumps.faces())
     {
       const auto  &here   = model.grid.cells()[model.fields->cells()[face.cell].grid_cell];
       const auto  &there  = model.grid.cells()[model.fields->cells()[face.neighbor].grid_cell];
-      const auto   matrix = ghost_penalty.matrix(face);
+      const auto   matrix = face_jumps.matrix(face);
       const double size   = here.size;
       EXPECT_LE(here.size, there.size);
       EXPECT_TRUE(model.fields->cells()[face.cell].is_cut
@@ -85,13 +85,13 @@ check_polynomials(const unsigned int degree, const unsigned int finest_level)
   EXPECT_GT(n_hanging, 0u);
 }
 
-TEST(GhostPenalty, VanishesForPolynomials2D)
+TEST(FaceJumps, VanishesForPolynomials2D)
 {
   check_polynomials<2>(1, 4);
   check_polynomials<2>(2, 4);
 }
 
-TEST(GhostPenalty, VanishesForPolynomials3D)
+TEST(FaceJumps, VanishesForPolynomials3D)
 {
   check_polynomials<3>(1, 3);
   check_polynomials<3>(2, 3);
@@ -101,9 +101,9 @@ TEST(GhostPenalty, VanishesForPolynomials3D)
 double
 total_length(const CutBodies<2> &model)
 {
-  double                sum = 0.;
-  const GhostPenalty<2> ghost_penalty(*model.fields);
-  for (const GhostFace &face : ghost_penalty.faces())
+  double             sum = 0.;
+  const FaceJumps<2> face_jumps(*model.fields);
+  for (const GhostFace &face : face_jumps.faces())
     sum += model.grid.cells()[model.fields->cells()[face.cell].grid_cell].size;
   return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
 }
@@ -130,13 +130,13 @@ expected_length(const CutBodies<2> &model)
   return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
 }
 
-TEST(GhostPenalty, EachFaceOnce)
+TEST(FaceJumps, EachFaceOnce)
 {
   const CutBodies<2> model(cut_ball<2>(1, 4));
   EXPECT_NEAR(total_length(model), expected_length(model), 1e-12);
 }
 
-TEST(GhostPenaltyMPI, EachFaceOnce)
+TEST(FaceJumpsMPI, EachFaceOnce)
 {
   const CutBodies<2> model(cut_ball<2>(1, 4));
   EXPECT_NEAR(total_length(model), expected_length(model), 1e-12);

@@ -1,0 +1,41 @@
+#include <scree/mechanics/cut_cell_gauss.h>
+#include <scree/mechanics/cut_cell_rule.h>
+#include <scree/mechanics/material_update.h>
+
+namespace scree
+{
+template <int dim>
+CutCellGauss<dim>::CutCellGauss(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+                                const std::vector<Body<dim>> &bodies, const StepStart<dim> &start)
+    : BulkQuadrature<dim>(fields, bodies)
+    , quadrature(quadrature)
+    , start(start)
+{
+  this->tabulate();
+}
+
+template <int dim>
+CellRule<dim>
+CutCellGauss<dim>::rule(const unsigned int active_cell) const
+{
+  return cut_cell_rule(this->fields, quadrature, active_cell);
+}
+
+template <int dim>
+std::vector<PointHistory<dim>>
+CutCellGauss<dim>::histories(const std::vector<PointInCell<dim>> &points) const
+{
+  return start.histories(points);
+}
+
+template <int dim>
+MaterialPoints<dim>
+CutCellGauss<dim>::moved(const MaterialPoints<dim> &points, const IncrementalBulk<dim> &bulk,
+                         const PointEvaluator<dim> &u) const
+{
+  return moved_points(points, this->bodies, start, bulk, u);
+}
+
+template class CutCellGauss<2>;
+template class CutCellGauss<3>;
+} // namespace scree

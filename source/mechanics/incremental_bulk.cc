@@ -1,0 +1,279 @@
+#include <scree/mechanics/incremental_bulk.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scree
+{
+namespace
+{
+template <int dim>
+std::vector<double>
+shares(const std::vector<Body<dim>> &bodies)
+{
+  std::vector<double> result;
+  for (const auto &body : bodies)
+    result.push_back(body.law ? body.law->projected_share() : 0.);
+  return result;
+}
+} // namespace
+
+template <int dim>
+IncrementalBulk<dim>::IncrementalBulk(const Fields<dim>            &fields,
+                                      const CutQuadrature<dim>     &quadrature,
+                                      const std::vector<Body<dim>> &bodies,
+                                      const SmallCutTreatment<dim> &small_cuts,
+                                      const BulkQuadrature<dim>    &points,
+                                      const PointEvaluator<dim>    &u_n)
+    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
+    , points(points)
+    , u_n(u_n)
+    , projection(fields, bodies, points, projected_shares)
+{
+  find_secant_ratios();
+}
+
+template <int dim>
+CellRule<dim>
+IncrementalBulk<dim>::rule(const unsigned int active_cell) const
+{
+  return points.rule(active_cell);
+}
+
+template <int dim>
+void
+IncrementalBulk<dim>::find_secant_ratios()
+{
+  std::vector<std::vector<double>> of_cells(fields.cells().size(), {1.});
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule<dim> cell   = rule(a);
+      double              volume = 0., alpha = 0.;
+      for (unsigned int q = 0; q < cell.n_points; ++q)
+        {
+          volume += cell.weights[q];
+          alpha += cell.weights[q] * points.starts(a)[q].alpha;
+        }
+      if (alpha > 0.)
+        of_cells[a] = {bodies[fields.cells()[a].body].law->secant_ratio(alpha / volume)};
+    }
+  exchange_to_ghosts(fields, of_cells);
+  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    this->secant_ratios[a] = of_cells[a].front();
+}
+
+template <int dim>
+void
+IncrementalBulk<dim>::set_reference_volumes(const unsigned int   active_cell,
+                                            std::vector<double> &volumes) const
+{
+  Bulk<dim>::set_reference_volumes(active_cell, volumes);
+  for (unsigned int q = 0; q < volumes.size(); ++q)
+    volumes[q] /= points.volume_ratios(active_cell)[q];
+}
+
+template <int dim>
+const typename IncrementalBulk<dim>::Answers &
+IncrementalBulk<dim>::answers(const PointEvaluator<dim> &u, const bool with_tangents) const
+{
+  if (!last.renew(u, with_tangents))
+    return last;
+  last.work = {};
+  last.piola.resize(points.n_points());
+  last.volumes.resize(fields.cells().size());
+  if (with_tangents)
+    {
+      last.tangents.resize(points.n_points());
+      const bool is_projected = std::any_of(projected_shares.begin(), projected_shares.end(),
+                                            [](const double share) { return share > 0.; });
+      last.of_volumes.of_points.resize(is_projected ? points.n_points() : 0);
+      last.of_volumes.of_modes.resize(is_projected ? fields.n_owned_cells() : 0);
+    }
+  CellIncrement cell;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    ask(a, cell);
+  return last;
+}
+
+template <int dim>
+void
+IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) const
+{
+  const CellRule<dim> rule         = points.rule(active_cell);
+  const unsigned int  n            = rule.n_points;
+  const unsigned int  body         = fields.cells()[active_cell].body;
+  const std::size_t   first        = points.first_point(active_cell);
+  const bool          is_projected = projected_shares[body] > 0.;
+  cell.active_cell                 = active_cell;
+  cell.n_points                    = n;
+  cell.weights.resize(n);
+  cell.increments.resize(n);
+  cell.responses.resize(n);
+  const double *shape = points.unit_gradients(active_cell);
+  for (unsigned int q = 0; q < n; ++q, shape += fields.basis.n_nodes * dim)
+    {
+      cell.weights[q]    = rule.weights[q] * rule.weight_scale;
+      cell.increments[q] = points.increment(*last.u, active_cell, shape);
+    }
+  if (is_projected)
+    projection.project(cell, last.volumes[active_cell]);
+  dealii::Tensor<4, dim> *tangents = last.has_tangents ? last.tangents.data() + first : nullptr;
+  bodies[body].law->respond(
+    dealii::make_array_view(cell.increments.begin(), cell.increments.end()),
+    dealii::ArrayView<const IncrementStart>(points.starts(active_cell), n),
+    dealii::make_array_view(cell.responses.begin(), cell.responses.end()),
+    dealii::ArrayView<dealii::Tensor<4, dim>>(tangents, last.has_tangents ? n : 0));
+  if (is_projected)
+    projection.pull_back(cell, tangents, last.of_volumes);
+  for (unsigned int q = 0; q < n; ++q)
+    {
+      const double reference_weight = cell.weights[q] / points.volume_ratios(active_cell)[q];
+      last.work.energy += reference_weight * cell.responses[q].energy;
+      last.work.dissipation += reference_weight * cell.responses[q].dissipation;
+      last.piola[first + q] = cell.responses[q].piola;
+    }
+}
+
+template <int dim>
+void
+IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &forces) const
+{
+  const auto            &piola = answers(u, std::exchange(last.expects_tangent, false)).piola;
+  const unsigned int     n     = fields.basis.n_nodes;
+  dealii::Vector<double> cell_forces(n * dim);
+  std::vector<DofIndex>  unknowns;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule<dim> cell  = points.rule(a);
+      const double        scale = cell.weight_scale / fields.cell_size(a);
+      const double       *shape = points.unit_gradients(a);
+      cell_forces               = 0.;
+      for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
+        {
+          const dealii::Tensor<2, dim> P
+            = cell.weights[q] * scale * piola[points.first_point(a) + q];
+          for (unsigned int b = 0; b < n; ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                cell_forces(b * dim + i) += P[i][j] * shape[b * dim + j];
+        }
+      set_unknowns_of_nodes<dim>(fields.nodes(a), n, unknowns);
+      fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
+    }
+}
+
+namespace
+{
+/** Adds weight A_ijkl dN_a/dx_j dN_b/dx_l in row (a, i) and column (b, k). */
+template <int dim>
+void
+add_stiffness(const dealii::Tensor<4, dim> &A, const double *shape, const unsigned int n,
+              const double weight, dealii::FullMatrix<double> &block)
+{
+  for (unsigned int b = 0; b < n; ++b)
+    {
+      // dP/du_k at node b
+      double dP[dim][dim][dim];
+      for (unsigned int k = 0; k < dim; ++k)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              double sum = 0.;
+              for (unsigned int l = 0; l < dim; ++l)
+                sum += A[i][j][k][l] * shape[b * dim + l];
+              dP[k][i][j] = weight * sum;
+            }
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              double sum = 0.;
+              for (unsigned int j = 0; j < dim; ++j)
+                sum += dP[k][i][j] * shape[a * dim + j];
+              block(a * dim + i, b * dim + k) += sum;
+            }
+    }
+}
+} // namespace
+
+template <int dim>
+void
+IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) const
+{
+  const auto &tangents         = answers(u, true).tangents;
+  last.expects_tangent         = true;
+  const unsigned int         n = fields.basis.n_nodes;
+  dealii::FullMatrix<double> block(n * dim, n * dim);
+  std::vector<DofIndex>      unknowns;
+  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    {
+      const CellRule<dim> cell  = points.rule(a);
+      const double        scale = cell.weight_scale / std::pow(fields.cell_size(a), 2);
+      const double       *shape = points.unit_gradients(a);
+      block                     = 0.;
+      for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
+        add_stiffness<dim>(tangents[points.first_point(a) + q], shape, n, cell.weights[q] * scale,
+                           block);
+      if (projected_shares[fields.cells()[a].body] > 0.)
+        projection.add_couplings(a, last.of_volumes, block);
+      set_unknowns_of_nodes<dim>(fields.nodes(a), n, unknowns);
+      fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
+    }
+}
+
+template <int dim>
+typename IncrementalBulk<dim>::Work
+IncrementalBulk<dim>::work(const PointEvaluator<dim> &u) const
+{
+  Work           result       = answers(u, false).work;
+  const MPI_Comm communicator = fields.grid.communicator();
+  result.energy               = dealii::Utilities::MPI::sum(result.energy, communicator);
+  result.dissipation          = dealii::Utilities::MPI::sum(result.dissipation, communicator);
+  return result;
+}
+
+template <int dim>
+BulkSample<dim>
+IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
+                             const PointEvaluator<dim> &u) const
+{
+  const PointInCell<dim> point        = {active_cell, unit_point};
+  const auto            &law          = *bodies[fields.cells()[active_cell].body].law;
+  const auto             history      = points.histories({point}).front();
+  const auto             at_start     = law.start(history);
+  const auto [displacement, gradient] = u.evaluate(point);
+
+  const dealii::Tensor<2, dim> F_D
+    = gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  const dealii::Tensor<2, dim> projected = projection.projected_increment(
+    active_cell, unit_point, projection.cell_volume(active_cell, u), F_D, at_start);
+  IncrementResponse<dim> response;
+  law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&projected, 1),
+              dealii::ArrayView<const IncrementStart>(&at_start, 1),
+              dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
+  BulkSample<dim> result;
+  result.displacement = u_n.value(point) + displacement;
+  // Green's strain
+  const dealii::Tensor<2, dim> F = F_D * history.deformation_gradient;
+  result.strain = 0.5 * (symmetrize(transpose(F) * F) - dealii::unit_symmetric_tensor<dim>());
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      result.stress[i][j] = response.cauchy[i][j];
+  if (dim == 2)
+    result.out_of_plane_stress = response.cauchy[2][2];
+  return result;
+}
+
+template <int dim>
+const std::vector<typename IncrementVolumes<dim>::CellVolume> &
+IncrementalBulk<dim>::cell_volumes(const PointEvaluator<dim> &u) const
+{
+  return answers(u, false).volumes;
+}
+
+template class IncrementalBulk<2>;
+template class IncrementalBulk<3>;
+} // namespace scree
