@@ -114,7 +114,7 @@ Stepper<dim>::hooks()
   };
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
     record.linear_iterations += solve_linear_system(r, tolerance, du).iterations;
-    problem.contact().set_touching_holds(false);
+    problem.contact().laws().set_touching_holds(false);
     equilibrium.shorten(du, problem.grid.finest_size());
   };
   hooks.is_geometric = [&](const Vector &r, const double tolerance) {
@@ -124,7 +124,12 @@ Stepper<dim>::hooks()
     return std::max(equilibrium.force_scale(),
                     equilibrium.round_off() / parameters.newton.relative_tolerance);
   };
-  hooks.freeze  = [&](const bool freeze) { problem.contact().freeze_friction(freeze); };
+  hooks.freeze = [&](const bool freeze) {
+    if (freeze)
+      problem.contact().laws().freeze(problem.contact().points(), problem.contact().responses());
+    else
+      problem.contact().laws().unfreeze();
+  };
   hooks.observe = [&](const NewtonIteration &iteration) { observe(iteration); };
   set_hooks_of_mass(hooks);
   return hooks;
@@ -174,7 +179,7 @@ NewtonResult
 Stepper<dim>::solve(Vector &u)
 {
   record = StepRecord();
-  model.problem().contact().set_touching_holds(true);
+  model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   return Newton(parameters.newton, hooks()).solve(u);
 }
@@ -194,9 +199,9 @@ Stepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vec
   DiscreteProblem<dim> &problem = model.problem();
   Vector                v(start);
   const double          pressed_before = pressed;
-  problem.contact().set_sticks(true);
+  problem.contact().laws().set_sticks(true);
   const unsigned int n_sticking = newton.solve(v).iterations;
-  problem.contact().set_sticks(false);
+  problem.contact().laws().set_sticks(false);
   const NewtonResult again = newton.solve(v);
   NewtonResult       best  = result;
   if (again.converged())
@@ -217,7 +222,7 @@ template <int dim>
 NewtonResult
 Stepper<dim>::solve_step(Vector &u)
 {
-  model.problem().contact().set_touching_holds(true);
+  model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   const Vector start(u);
   const Newton newton(parameters.newton, hooks());

@@ -2,8 +2,11 @@
 #include <scree/contact/contact_points.h>
 #include <scree/contact/exact_distance.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace scree
 {
@@ -33,7 +36,7 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                   const std::vector<ContactPair> &pairs, const double shift,
                                   const Prediction &prediction, const Vector *start_displacement,
                                   const Vector *secant_ratios)
-    : contact_pairs(pairs)
+    : contact_laws(pairs)
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
@@ -46,6 +49,8 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
   find_stencils(fields, bodies, prediction, distances,
                 InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
                 start_displacement, secant_ratios);
+  all_points.resize(contact_points.size());
+  std::iota(all_points.begin(), all_points.end(), 0u);
   contact_jumps.resize(contact_points.size());
   contact_means.resize(contact_points.size());
   contact_responses.resize(contact_points.size());
@@ -78,7 +83,7 @@ double
 ContactPoints<dim>::eps_n(const unsigned int point) const
 {
   const ContactPoint<dim> &p = contact_points[point];
-  return contact_pairs[p.pair].law.normal_factor * flow_ratios[point] * pair_modulus[p.pair]
+  return pairs()[p.pair].law.normal_factor * flow_ratios[point] * pair_modulus[p.pair]
          / p.cell_size;
 }
 
@@ -87,7 +92,7 @@ double
 ContactPoints<dim>::eps_t(const unsigned int point) const
 {
   const ContactPoint<dim> &p = contact_points[point];
-  return contact_pairs[p.pair].law.tangential_factor * flow_ratios[point] * pair_modulus[p.pair]
+  return pairs()[p.pair].law.tangential_factor * flow_ratios[point] * pair_modulus[p.pair]
          / p.cell_size;
 }
 
@@ -102,25 +107,46 @@ ContactPoints<dim>::rigid_load(const unsigned int body) const
 }
 
 template <int dim>
-ContactResponse<dim>
-ContactPoints<dim>::response(const unsigned int p, const dealii::Tensor<1, dim> &jump,
-                             const ContactHistory<dim> &history) const
+std::vector<TrialTraction<dim>>
+ContactPoints<dim>::trial_tractions(const std::vector<unsigned int>       &points,
+                                    const std::vector<ContactMotion<dim>> &motions,
+                                    const ContactHistory<dim>             &history) const
 {
-  const ContactPoint<dim> &point   = contact_points[p];
-  const auto              &law     = contact_pairs[point.pair].law;
-  const bool               is_tied = law.law == ContactLaw::tied;
-  const ContactLaw         acting  = is_tied && !point.is_glued             ? ContactLaw::none
-                                     : !is_tied && !pair_allowances.empty() ? ContactLaw::frictionless
-                                     : all_stick && law.law == ContactLaw::coulomb ? ContactLaw::stick
-                                                                                   : law.law;
-  const double             gap
-    = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
-  return contact_response<dim>(acting, law.friction_coefficient,
-                               {gap, point.normal, jump, history.jump[p], history.tau[p],
-                                history.pressure[p], eps_n(p), eps_t(p),
-                                touching_holds ? 1e-8 * point.cell_size : 0.,
-                                frozen_limits.empty() ? -1. : frozen_limits[p],
-                                frozen_limits.empty() ? 1. : frozen_closed_parts[p]});
+  std::vector<TrialTraction<dim>> result;
+  result.reserve(points.size());
+  for (unsigned int i = 0; i < points.size(); ++i)
+    {
+      const unsigned int        p      = points[i];
+      const ContactMotion<dim> &motion = motions[i];
+      const double              k_n = eps_n(p), k_t = eps_t(p);
+      result.push_back(
+        {motion.is_glued ? history.pressure[p] - k_n * motion.opening : -k_n * motion.gap,
+         history.tau[p] - k_t * motion.closed_part * motion.slide, k_n, k_t});
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<ContactResponse<dim>>
+ContactPoints<dim>::responses_to(const std::vector<unsigned int>           &points,
+                                 const std::vector<dealii::Tensor<1, dim>> &jumps,
+                                 const ContactHistory<dim>                 &history) const
+{
+  const auto motions = contact_laws.motions(contact_points, points, jumps, history);
+  return contact_laws.respond(contact_points, points, motions,
+                              trial_tractions(points, motions, history));
+}
+
+template <int dim>
+std::vector<double>
+ContactPoints<dim>::overlaps(const MPI_Comm communicator) const
+{
+  std::vector<double> result(pairs().size(), 0.);
+  for (const ContactPoint<dim> &point : contact_points)
+    if (!pairs()[point.pair].law.kind->glues)
+      result[point.pair] = std::max(result[point.pair], -point.initial_gap);
+  dealii::Utilities::MPI::max(result, communicator, result);
+  return result;
 }
 
 template <int dim>
@@ -162,17 +188,17 @@ ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history
               jump += side.sign * motion;
               sum += motion;
             }
-          contact_jumps[p]     = jump;
-          contact_means[p]     = 0.5 * sum;
-          contact_responses[p] = response(p, jump, history);
-          for (const RigidSide &side : rigid_sides(group))
-            rigid_partners[side.partner].load.add(
-              contact_feet[p][side.number()].X
-                - rigid_partners[side.partner].rigid->reference_point,
-              side.sign * contact_points[p].weight
-                * contact_responses[p].traction(contact_points[p].normal));
+          contact_jumps[p] = jump;
+          contact_means[p] = 0.5 * sum;
         }
     }
+  contact_responses = responses_to(all_points, contact_jumps, history);
+  for (unsigned int p = 0; p < (rigid_partners.empty() ? 0 : contact_points.size()); ++p)
+    for (const RigidSide &side : rigid_sides_of_pair[contact_points[p].pair])
+      rigid_partners[side.partner].load.add(
+        contact_feet[p][side.number()].X - rigid_partners[side.partner].rigid->reference_point,
+        side.sign * contact_points[p].weight
+          * contact_responses[p].traction(contact_points[p].normal));
 }
 
 template <int dim>

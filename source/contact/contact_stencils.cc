@@ -44,10 +44,10 @@ ContactPoints<dim>::find_rigid_partners(const Fields<dim>            &fields,
                                         const std::vector<Body<dim>> &bodies)
 {
   std::map<unsigned int, unsigned int> partner_of_body;
-  rigid_sides_of_pair.resize(contact_pairs.size());
-  for (unsigned int p = 0; p < contact_pairs.size(); ++p)
+  rigid_sides_of_pair.resize(pairs().size());
+  for (unsigned int p = 0; p < pairs().size(); ++p)
     for (const auto &[b, sign] :
-         {std::make_pair(contact_pairs[p].a, -1.), std::make_pair(contact_pairs[p].b, 1.)})
+         {std::make_pair(pairs()[p].a, -1.), std::make_pair(pairs()[p].b, 1.)})
       {
         const Body<dim> &body = bodies[b];
         if (!body.is_rigid())
@@ -88,7 +88,7 @@ ContactPoints<dim>::find_feet(const Fields<dim> &fields, const std::vector<Body<
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
       ContactPoint<dim>        &point = contact_points[i];
-      const ContactPair        &pair  = contact_pairs[point.pair];
+      const ContactPair        &pair  = pairs()[point.pair];
       const dealii::Point<dim> &x     = point.position;
       dealii::Tensor<1, dim>    slide;
       if (prediction)
@@ -175,7 +175,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
       ContactPoint<dim>                    &point = contact_points[i];
-      const ContactPair                    &pair  = contact_pairs[point.pair];
+      const ContactPair                    &pair  = pairs()[point.pair];
       NodeWeights                           weights_and_sides;
       bool                                  is_found   = true;
       double                                compliance = 0., secant_compliance = 0.;

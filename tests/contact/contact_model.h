@@ -14,14 +14,14 @@ namespace scree
 /** The contact points of a model, the same law for all pairs. */
 template <int dim>
 ContactPoints<dim>
-contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless,
+contact_points(const CutBodies<dim> &model, const std::string &law = "frictionless",
                const typename ContactPoints<dim>::Prediction &prediction = {})
 {
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
     {
       ContactPairParameters parameters;
-      parameters.law = law;
+      parameters.kind = &contact_law(law);
       pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
     }
   return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,

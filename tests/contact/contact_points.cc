@@ -150,7 +150,7 @@ turned_disc(const unsigned int level, const double angle, const bool is_predicte
     return Tensor<1, 2>({c * x[0] - s * x[1], s * x[0] + c * x[1]});
   };
   ContactPoints<2> contact
-    = contact_points<2>(model, ContactLaw::frictionless,
+    = contact_points<2>(model, "frictionless",
                         is_predicted ? typename ContactPoints<2>::Prediction(turn)
                                      : typename ContactPoints<2>::Prediction());
   contact.evaluate(displacement<2>(model, contact, turn), contact.initial_history());
@@ -213,7 +213,7 @@ TEST(ContactPoints, OverlapIsNegativeGap)
 TEST(ContactPoints, HistoryIsWhatWasEvaluated)
 {
   const CutBodies<2> model(two_half_planes(0., 0.0004, 1));
-  ContactPoints<2>   contact = contact_points(model, ContactLaw::stick);
+  ContactPoints<2>   contact = contact_points(model, "stick");
   const Vector       u = displacement<2>(model, contact, [](const unsigned int body, const auto &) {
     return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({0.01, -0.02});
   });

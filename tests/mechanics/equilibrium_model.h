@@ -72,7 +72,7 @@ struct EquilibriumModel
     for (const auto &[a, b] : cut.pairs)
       {
         const auto law = input.contact.law_of(cut.bodies[a].name, cut.bodies[b].name);
-        if (law.law != ContactLaw::none)
+        if (law.kind->acts)
           pairs.push_back({a, b, cut.bodies[a].name + "-" + cut.bodies[b].name, law});
       }
     return pairs;

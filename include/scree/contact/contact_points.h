@@ -1,7 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_history.h>
-#include <scree/contact/contact_law.h>
+#include <scree/contact/contact_laws.h>
 #include <scree/contact/expected_slide.h>
 #include <scree/contact/initial_gap.h>
 #include <scree/solver/condensed_solver.h>
@@ -69,32 +69,17 @@ public:
 
   const std::vector<ContactPair> &pairs() const
   {
-    return contact_pairs;
+    return contact_laws.pairs();
   }
 
   /** History of an unloaded surface. */
   ContactHistory<dim> initial_history() const;
 
-  /**
-   * Whether points that touch without pressure, gaps from 0 to 1e-8 h, count as closed in the
-   * tangent: so a body that touches without load is held before anything has moved.
-   */
-  void set_touching_holds(const bool holds);
-
-  /**
-   * Resolves initial overlap: no friction until the next call, but what is tied stays tied, and the
-   * gaps of each pair are larger by its allowance [L]. Empty: friction again, and no allowance.
-   */
-  void resolve_overlap(const std::vector<double> &allowances);
-
-  /** Whether what obeys Coulomb's law sticks for a while, whatever its pressure. */
-  void set_sticks(const bool sticks);
-
-  /**
-   * Keeps the bounds mu p of the last evaluation for the next ones, or lets them follow the
-   * pressure again.
-   */
-  void freeze_friction(const bool freeze);
+  /** Also what the solver changes in the laws for a while. */
+  ContactLaws<dim> &laws()
+  {
+    return contact_laws;
+  }
 
   /** Largest overlap of each pair without displacement; tied ones have none. Collective. */
   std::vector<double> overlaps(const MPI_Comm communicator) const;
@@ -102,9 +87,13 @@ public:
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
   void evaluate(const Vector &u, const ContactHistory<dim> &history);
 
-  /** The response of a point to a jump, whatever the last evaluation was. */
-  ContactResponse<dim> response(const unsigned int point, const dealii::Tensor<1, dim> &jump,
-                                const ContactHistory<dim> &history) const;
+  /**
+   * The responses of points to jumps, whatever the last evaluation was; points of a pair come one
+   * after the other.
+   */
+  std::vector<ContactResponse<dim>> responses_to(const std::vector<unsigned int>           &points,
+                                                 const std::vector<dealii::Tensor<1, dim>> &jumps,
+                                                 const ContactHistory<dim> &history) const;
 
   /** The history to carry on: tractions and jumps of the last evaluation. */
   ContactHistory<dim> current_history() const;
@@ -170,6 +159,12 @@ private:
                      const Prediction &prediction, const ExactDistances<dim> &distances,
                      const InitialGaps<dim> &initial_gaps, const Vector *start_displacement,
                      const Vector *secant_ratios);
+  /** Penalties: p_t = -eps_n g, or p_n - eps_n opening of glued points, and tau_t = tau_n - eps_t f
+   * slide. */
+  std::vector<TrialTraction<dim>> trial_tractions(const std::vector<unsigned int>       &points,
+                                                  const std::vector<ContactMotion<dim>> &motions,
+                                                  const ContactHistory<dim> &history) const;
+
   struct Feet; //!< where the displacements of all points are taken
   Feet find_feet(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                  const Prediction &prediction, const ExactDistances<dim> &distances);
@@ -226,15 +221,12 @@ private:
                            const dealii::Tensor<2, dim> &stiffness,
                            dealii::FullMatrix<double>   &block) const;
 
-  std::vector<ContactPair>            contact_pairs;
-  std::vector<double>                 pair_modulus;    //!< E = 2/(1/E_a + 1/E_b)
-  std::vector<double>                 pair_allowances; //!< while overlap is resolved
-  bool                                touching_holds = true;
-  bool                                all_stick      = false;
-  std::vector<double>                 frozen_limits, frozen_closed_parts; //!< empty: not frozen
+  ContactLaws<dim>                    contact_laws;
+  std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;
+  std::vector<unsigned int>           all_points;  //!< their numbers
   std::vector<double>                 flow_ratios; //!< E'/E of each point
   /** Of the rigid ones of the bodies a and b of each point; empty without rigid bodies. */
   std::vector<std::array<RigidFoot, 2>> contact_feet;
