@@ -176,12 +176,26 @@ Stepper<dim>::observe(const NewtonIteration &iteration)
 
 template <int dim>
 NewtonResult
+Stepper<dim>::solve_enforced(const Newton &newton, Vector &u)
+{
+  NewtonResult result = newton.solve(u);
+  while (result.converged() && !model.problem().contact().update_enforcement())
+    {
+      const unsigned int n_before = result.iterations;
+      result                      = newton.solve(u);
+      result.iterations += n_before;
+    }
+  return result;
+}
+
+template <int dim>
+NewtonResult
 Stepper<dim>::solve(Vector &u)
 {
   record = StepRecord();
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
-  return Newton(parameters.newton, hooks()).solve(u);
+  return solve_enforced(Newton(parameters.newton, hooks()), u);
 }
 
 template <int dim>
@@ -202,7 +216,7 @@ Stepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vec
   problem.contact().laws().set_sticks(true);
   const unsigned int n_sticking = newton.solve(v).iterations;
   problem.contact().laws().set_sticks(false);
-  const NewtonResult again = newton.solve(v);
+  const NewtonResult again = solve_enforced(newton, v);
   NewtonResult       best  = result;
   if (again.converged())
     {
@@ -226,7 +240,7 @@ Stepper<dim>::solve_step(Vector &u)
   pressed = most_pressed = 0.;
   const Vector start(u);
   const Newton newton(parameters.newton, hooks());
-  NewtonResult result = newton.solve(u);
+  NewtonResult result = solve_enforced(newton, u);
   if (has_lost_contact(result)) // Friction may hold what sticks at first.
     result = solve_with_sticking(newton, start, u, result);
   if (!has_lost_contact(result))

@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/contact/contact_points.h>
 #include <scree/contact/exact_distance.h>
+#include <scree/contact/penalty.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -46,9 +47,11 @@ ContactPoints<dim>::ContactPoints(const Fields<dim>              &fields,
                                                 [](const Body<dim> &body) { return body.law != nullptr; });
   contact_points = contact_surface(fields, level_set_nodes, bodies, pairs, shift, distances,
                                    moves || prediction);
-  find_stencils(fields, bodies, prediction, distances,
-                InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
-                start_displacement, secant_ratios);
+  const std::vector<double> flow_ratios
+    = find_stencils(fields, bodies, prediction, distances,
+                    InitialGaps<dim>(bodies, pairs, 2. * shift, fields.basis.degree),
+                    start_displacement, secant_ratios);
+  contact_enforcement = std::make_unique<Penalty<dim>>(penalties(flow_ratios));
   all_points.resize(contact_points.size());
   std::iota(all_points.begin(), all_points.end(), 0u);
   contact_jumps.resize(contact_points.size());
@@ -79,21 +82,20 @@ ContactPoints<dim>::current_history() const
 }
 
 template <int dim>
-double
-ContactPoints<dim>::eps_n(const unsigned int point) const
+std::vector<ContactStiffness>
+ContactPoints<dim>::penalties(const std::vector<double> &flow_ratios) const
 {
-  const ContactPoint<dim> &p = contact_points[point];
-  return pairs()[p.pair].law.normal_factor * flow_ratios[point] * pair_modulus[p.pair]
-         / p.cell_size;
-}
-
-template <int dim>
-double
-ContactPoints<dim>::eps_t(const unsigned int point) const
-{
-  const ContactPoint<dim> &p = contact_points[point];
-  return pairs()[p.pair].law.tangential_factor * flow_ratios[point] * pair_modulus[p.pair]
-         / p.cell_size;
+  std::vector<ContactStiffness> result;
+  for (unsigned int i = 0; i < contact_points.size(); ++i)
+    {
+      const ContactPoint<dim>     &point = contact_points[i];
+      const ContactPairParameters &law   = pairs()[point.pair].law;
+      const auto                   eps   = [&](const double factor) {
+        return factor * flow_ratios[i] * pair_modulus[point.pair] / point.cell_size;
+      };
+      result.push_back({eps(law.normal_factor), eps(law.tangential_factor)});
+    }
+  return result;
 }
 
 template <int dim>
@@ -107,26 +109,6 @@ ContactPoints<dim>::rigid_load(const unsigned int body) const
 }
 
 template <int dim>
-std::vector<TrialTraction<dim>>
-ContactPoints<dim>::trial_tractions(const std::vector<unsigned int>       &points,
-                                    const std::vector<ContactMotion<dim>> &motions,
-                                    const ContactHistory<dim>             &history) const
-{
-  std::vector<TrialTraction<dim>> result;
-  result.reserve(points.size());
-  for (unsigned int i = 0; i < points.size(); ++i)
-    {
-      const unsigned int        p      = points[i];
-      const ContactMotion<dim> &motion = motions[i];
-      const double              k_n = eps_n(p), k_t = eps_t(p);
-      result.push_back(
-        {motion.is_glued ? history.pressure[p] - k_n * motion.opening : -k_n * motion.gap,
-         history.tau[p] - k_t * motion.closed_part * motion.slide, k_n, k_t});
-    }
-  return result;
-}
-
-template <int dim>
 std::vector<ContactResponse<dim>>
 ContactPoints<dim>::responses_to(const std::vector<unsigned int>           &points,
                                  const std::vector<dealii::Tensor<1, dim>> &jumps,
@@ -134,7 +116,7 @@ ContactPoints<dim>::responses_to(const std::vector<unsigned int>           &poin
 {
   const auto motions = contact_laws.motions(contact_points, points, jumps, history);
   return contact_laws.respond(contact_points, points, motions,
-                              trial_tractions(points, motions, history));
+                              contact_enforcement->trial_tractions(points, motions, history));
 }
 
 template <int dim>
@@ -330,10 +312,12 @@ template <int dim>
 dealii::Tensor<2, dim>
 ContactPoints<dim>::glued_tangent(const unsigned int point) const
 {
-  const auto &n      = contact_points[point].normal;
-  const auto  normal = dealii::outer_product(n, n);
+  const auto &n         = contact_points[point].normal;
+  const auto  normal    = dealii::outer_product(n, n);
+  const auto  stiffness = contact_enforcement->stiffness()[point];
   return contact_points[point].weight
-         * (eps_n(point) * normal + eps_t(point) * (dealii::unit_symmetric_tensor<dim>() - normal));
+         * (stiffness.normal * normal
+            + stiffness.tangential * (dealii::unit_symmetric_tensor<dim>() - normal));
 }
 
 template <int dim>

@@ -159,7 +159,7 @@ ContactPoints<dim>::append_stencil(const ContactPoint<dim>        &point,
 }
 
 template <int dim>
-void
+std::vector<double>
 ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                                   const Prediction          &prediction,
                                   const ExactDistances<dim> &distances,
@@ -171,6 +171,7 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
   const Vector                   u_n      = values_at(stencils, start_displacement, dim);
   const Vector                   ratios   = values_at(stencils, secant_ratios, dim);
   std::vector<ContactPoint<dim>> kept;
+  std::vector<double>            flow_ratios;
   auto                           stencil = stencils.begin();
   for (unsigned int i = 0; i < contact_points.size(); ++i)
     {
@@ -213,13 +214,14 @@ ContactPoints<dim>::find_stencils(const Fields<dim> &fields, const std::vector<B
         contact_feet.push_back(feet.on_rigid[i]);
     }
   contact_points = kept;
+  return flow_ratios;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                           \
-  template void ContactPoints<dim>::find_rigid_partners(const Fields<dim> &,             \
-                                                        const std::vector<Body<dim>> &); \
-  template void ContactPoints<dim>::find_stencils(                                       \
-    const Fields<dim> &, const std::vector<Body<dim>> &, const Prediction &,             \
+#define SCREE_INSTANTIATE(dim)                                                                          \
+  template void                ContactPoints<dim>::find_rigid_partners(const Fields<dim> &,             \
+                                                                       const std::vector<Body<dim>> &); \
+  template std::vector<double> ContactPoints<dim>::find_stencils(                                       \
+    const Fields<dim> &, const std::vector<Body<dim>> &, const Prediction &,                            \
     const ExactDistances<dim> &, const InitialGaps<dim> &, const Vector *, const Vector *);
 
 SCREE_INSTANTIATE(2)

@@ -1,3 +1,4 @@
+#include <scree/contact/contact_energy.h>
 #include <scree/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -123,25 +124,7 @@ Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history
   accepted_time       = time;
   is_unloaded         = false;
 
-  // The work of the tangential tractions on the slip, by the trapezoidal rule.
-  // Where an old traction would drive the slip this is negative; the traction has turned before.
-  double dissipated = 0., not_negative = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const auto &point    = contact.points()[i];
-      const auto &response = contact.responses()[i];
-      const auto &old_tau  = old_history.tau[i];
-      auto        slip     = contact.jumps()[i] - old_history.jump[i];
-      slip -= (slip * point.normal) * point.normal;
-      slip += (response.tau - old_tau) / contact.eps_t(i); // without what the penalty gives back
-      const double at_end = -point.weight * (response.tau * slip);
-      const double mean   = 0.5 * (at_end - point.weight * (old_tau * slip));
-      dissipated += mean;
-      not_negative += mean < 0. ? at_end : mean;
-    }
-  dissipated   = dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
-  not_negative = dealii::Utilities::MPI::sum(not_negative, fields.grid.communicator());
-  energies.dissipation += dissipated < 0. ? not_negative : dissipated;
+  energies.dissipation += dissipation(contact, old_history, fields.grid.communicator());
   energies.plastic += store_energies(field);
 }
 
@@ -157,15 +140,7 @@ template <int dim>
 double
 Equilibrium<dim>::store_energies(const PointEvaluator<dim> &u)
 {
-  double stored = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const auto &response = contact.responses()[i];
-      stored += 0.5 * contact.points()[i].weight
-                * (response.pressure * response.pressure / contact.eps_n(i)
-                   + response.tau.norm_square() / contact.eps_t(i));
-    }
-  current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
+  current_energies.contact  = stored_energy(contact, fields.grid.communicator());
   const auto of_bulk        = bulk.work(u);
   current_energies.strain   = of_bulk.energy;
   current_energies.boundary = boundary_terms.energy(u, time);
@@ -231,12 +206,7 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
   accepted_driven    = driving->of_points;
   current_energies   = energies;
   // What laws dissipate at once is counted at the end of the step and was stored before.
-  double cut = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    cut += 0.5 * contact.points()[i].weight
-           * (history.tau[i].norm_square() - contact.responses()[i].tau.norm_square())
-           / contact.eps_t(i);
-  cut = dealii::Utilities::MPI::sum(cut, fields.grid.communicator());
+  double cut = cut_energy(contact, history, fields.grid.communicator());
   cut += store_energies(at_points(accepted_u));
   current_energies.transfer += current_energies.stored() + cut - energies.stored();
 }

@@ -70,8 +70,12 @@ TEST(ContactPoints, PenaltiesFollowFlow)
       for (unsigned int i = 0; i < contact.points().size(); ++i)
         {
           const double factor = std::max(ratio, 0.1);
-          EXPECT_NEAR(contact.eps_n(i), factor * elastic.eps_n(i), 1e-10 * elastic.eps_n(i));
-          EXPECT_NEAR(contact.eps_t(i), factor * elastic.eps_t(i), 1e-10 * elastic.eps_t(i));
+          EXPECT_NEAR(contact.enforcement().stiffness()[i].normal,
+                      factor * elastic.enforcement().stiffness()[i].normal,
+                      1e-10 * elastic.enforcement().stiffness()[i].normal);
+          EXPECT_NEAR(contact.enforcement().stiffness()[i].tangential,
+                      factor * elastic.enforcement().stiffness()[i].tangential,
+                      1e-10 * elastic.enforcement().stiffness()[i].tangential);
         }
     }
 }
@@ -221,7 +225,7 @@ TEST(ContactPoints, HistoryIsWhatWasEvaluated)
   const auto history = contact.current_history();
   ASSERT_FALSE(history.tau.empty());
   const double eps_t = 10. * 1000. / model.grid.finest_size();
-  EXPECT_NEAR(contact.eps_t(0), eps_t, 1e-9 * eps_t);
+  EXPECT_NEAR(contact.enforcement().stiffness()[0].tangential, eps_t, 1e-9 * eps_t);
   for (unsigned int i = 0; i < history.tau.size(); ++i)
     {
       // Only the motion after closing causes friction.

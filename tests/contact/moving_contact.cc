@@ -86,7 +86,7 @@ check_moving_planes(const unsigned int degree)
         continue;
       ++n_checked;
       const Tensor<1, 2> jump = sliding(x) * (Q * tangent) + gap * (Q * normal - normal);
-      const double       size = -moved_contact.eps_t(i) * (jump * tangent);
+      const double size = -moved_contact.enforcement().stiffness()[i].tangential * (jump * tangent);
       EXPECT_LE((history.tau[i] - size * (Q * tangent)).norm(), 2e-3 * std::abs(size));
       EXPECT_LE(std::abs(history.tau[i] * moved_contact.points()[i].normal),
                 1e-12 * std::abs(size));

@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_history.h>
 #include <scree/contact/contact_laws.h>
+#include <scree/contact/enforcement.h>
 #include <scree/contact/expected_slide.h>
 #include <scree/contact/initial_gap.h>
 #include <scree/solver/condensed_solver.h>
@@ -13,7 +14,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace scree
@@ -72,6 +72,22 @@ public:
     return contact_laws.pairs();
   }
 
+  /** By penalties eps = c s' E/h, s' of plastic flow, if no other one is set. */
+  const Enforcement<dim> &enforcement() const
+  {
+    return *contact_enforcement;
+  }
+  void set_enforcement(std::unique_ptr<Enforcement<dim>> other)
+  {
+    contact_enforcement = std::move(other);
+  }
+
+  /** Enforcement::update() in the equilibrium of the last evaluation (collective). */
+  bool update_enforcement()
+  {
+    return contact_enforcement->update(contact_responses);
+  }
+
   /** History of an unloaded surface. */
   ContactHistory<dim> initial_history() const;
 
@@ -125,10 +141,6 @@ public:
   /** Contact forces of the last evaluation on a rigid body, of the points of this process. */
   typename RigidPose<dim>::Load rigid_load(const unsigned int body) const;
 
-  /** Penalties eps_n, eps_t of a point, with rho E for E where bodies flow [force/area/L]. */
-  double eps_n(const unsigned int point) const;
-  double eps_t(const unsigned int point) const;
-
   /** Adds -R_contact(v) = int (p n + tau).[[v]] of the last evaluation. */
   void add_to_residual(Vector &residual) const;
 
@@ -155,16 +167,13 @@ public:
 
 private:
   void find_rigid_partners(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
-  void find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                     const Prediction &prediction, const ExactDistances<dim> &distances,
-                     const InitialGaps<dim> &initial_gaps, const Vector *start_displacement,
-                     const Vector *secant_ratios);
-  /** Penalties: p_t = -eps_n g, or p_n - eps_n opening of glued points, and tau_t = tau_n - eps_t f
-   * slide. */
-  std::vector<TrialTraction<dim>> trial_tractions(const std::vector<unsigned int>       &points,
-                                                  const std::vector<ContactMotion<dim>> &motions,
-                                                  const ContactHistory<dim> &history) const;
-
+  /** @return E'/E of plastic flow at each point */
+  std::vector<double> find_stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+                                    const Prediction          &prediction,
+                                    const ExactDistances<dim> &distances,
+                                    const InitialGaps<dim>    &initial_gaps,
+                                    const Vector *start_displacement, const Vector *secant_ratios);
+  std::vector<ContactStiffness> penalties(const std::vector<double> &flow_ratios) const;
   struct Feet; //!< where the displacements of all points are taken
   Feet find_feet(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
                  const Prediction &prediction, const ExactDistances<dim> &distances);
@@ -222,12 +231,12 @@ private:
                            dealii::FullMatrix<double>   &block) const;
 
   ContactLaws<dim>                    contact_laws;
+  std::unique_ptr<Enforcement<dim>>   contact_enforcement;
   std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
   std::vector<RigidPartner>           rigid_partners;
   std::vector<std::vector<RigidSide>> rigid_sides_of_pair;
   std::vector<ContactPoint<dim>>      contact_points;
-  std::vector<unsigned int>           all_points;  //!< their numbers
-  std::vector<double>                 flow_ratios; //!< E'/E of each point
+  std::vector<unsigned int>           all_points; //!< their numbers
   /** Of the rigid ones of the bodies a and b of each point; empty without rigid bodies. */
   std::vector<std::array<RigidFoot, 2>> contact_feet;
   std::vector<Group>                    groups;
