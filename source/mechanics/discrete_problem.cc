@@ -1,3 +1,4 @@
+#include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/discrete_problem.h>
 #include <scree/mechanics/material_update.h>
 
@@ -18,8 +19,8 @@ template <int dim>
 ContactPoints<dim>
 contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, const double step_size)
 {
-  const Predictor<dim>                   &predictor = state.predictor;
-  typename ContactPoints<dim>::Prediction prediction;
+  const Predictor<dim>    &predictor = state.predictor;
+  IncrementPrediction<dim> prediction;
   if (problem.is_moving() && !predictor.is_empty())
     prediction = [&](const unsigned int b, const dealii::Point<dim> &x) {
       return predictor.expected_increment(state.bodies[b], b, x, step_size);
@@ -27,10 +28,12 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
   typename Bulk<dim>::Vector ratios;
   if (problem.step_start)
     ratios = problem.bulk.nodal_secant_ratios();
-  return ContactPoints<dim>(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
-                            problem.shift(), prediction,
-                            problem.step_start ? &problem.step_start->displacement() : nullptr,
-                            problem.step_start ? &ratios : nullptr);
+  return ContactPoints<dim>(
+    problem.bodies, problem.pairs,
+    level_set_surface(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
+                      problem.shift(), prediction,
+                      problem.step_start ? &problem.step_start->displacement() : nullptr,
+                      problem.step_start ? &ratios : nullptr));
 }
 } // namespace
 
@@ -45,7 +48,7 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                                                   problem.boundary_terms, contact);
                         }))
     , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
-             equilibrium, contact, problem.timings)
+             equilibrium, contact.points().size(), problem.timings)
 {
 }
 

@@ -26,8 +26,10 @@ points_with(const CutBodies<dim> &model, const ContactPairParameters &law)
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
     pairs.push_back({a, b, "pair", law});
-  return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                            CutBodies<dim>::shift * model.grid.finest_size());
+  return ContactPoints<dim>(model.bodies, pairs,
+                            level_set_surface(*model.fields, *model.level_set_nodes, model.bodies,
+                                              pairs,
+                                              CutBodies<dim>::shift * model.grid.finest_size()));
 }
 
 /** Largest error of the normals around a disc of radius 1 in a hole. */

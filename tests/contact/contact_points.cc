@@ -63,9 +63,10 @@ TEST(ContactPoints, PenaltiesFollowFlow)
       for (const auto i : owned)
         ratios(i) = ratio;
       ratios.compress(VectorOperation::insert);
-      const ContactPoints<2> contact(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                                     CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr,
-                                     &ratios);
+      const ContactPoints<2> contact(
+        model.bodies, pairs,
+        level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                          CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr, &ratios));
       ASSERT_EQ(contact.points().size(), elastic.points().size());
       for (unsigned int i = 0; i < contact.points().size(); ++i)
         {
@@ -153,10 +154,8 @@ turned_disc(const unsigned int level, const double angle, const bool is_predicte
     const double c = body == 0 ? std::cos(angle) - 1. : 0., s = body == 0 ? std::sin(angle) : 0.;
     return Tensor<1, 2>({c * x[0] - s * x[1], s * x[0] + c * x[1]});
   };
-  ContactPoints<2> contact
-    = contact_points<2>(model, "frictionless",
-                        is_predicted ? typename ContactPoints<2>::Prediction(turn)
-                                     : typename ContactPoints<2>::Prediction());
+  ContactPoints<2> contact = contact_points<2>(
+    model, "frictionless", is_predicted ? IncrementPrediction<2>(turn) : IncrementPrediction<2>());
   contact.evaluate(displacement<2>(model, contact, turn), contact.initial_history());
   TurnedDisc result;
   for (unsigned int i = 0; i < contact.points().size(); ++i)

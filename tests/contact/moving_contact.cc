@@ -383,7 +383,7 @@ compare_tangent()
   ContactPoints<dim>     contact = contact_points(model, "stick");
   const auto             history = contact.initial_history();
   DynamicSparsityPattern pattern(model.fields->n_dofs());
-  for (const auto &unknowns : contact.couplings())
+  for (const auto &unknowns : contact.jump_operator().couplings())
     for (const auto row : unknowns)
       pattern.add_entries(row, unknowns.begin(), unknowns.end());
   TrilinosWrappers::SparseMatrix K;

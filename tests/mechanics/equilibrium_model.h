@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/linear_prediction.h>
 #include <scree/solver/linear_solver.h>
@@ -55,8 +56,9 @@ struct EquilibriumModel
       , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty)
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
-      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                input.contact.shift * cut.grid.finest_size())
+      , contact(cut.bodies, contact_pairs(),
+                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                  input.contact.shift * cut.grid.finest_size()))
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
       , linear_solver(input.linear, dim, cut.fields->basis.degree)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/level_set_surface.h>
 #include <scree/points/seeding.h>
 
 #include <functional>
@@ -28,8 +29,9 @@ struct StartedStep
       , start(*cut.fields, quadrature, cut.bodies, points, parameters)
       , bulk(*cut.fields, quadrature, cut.bodies, input.bodies.ghost_penalty, &start)
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, bulk)
-      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                input.contact.shift * cut.grid.finest_size())
+      , contact(cut.bodies, contact_pairs(),
+                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                  input.contact.shift * cut.grid.finest_size()))
       , equilibrium(*cut.fields, cut.bodies, bulk, boundary_terms, contact)
   {
   }
