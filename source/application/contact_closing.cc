@@ -32,7 +32,7 @@ ContactClosing<dim>::resolve_part(const std::vector<double> &overlaps, const dou
   auto              allowed     = overlaps;
   for (double &overlap : allowed)
     overlap *= left;
-  model.problem().contact().resolve_overlap(allowed);
+  model.problem().contact().laws().resolve_overlap(allowed);
   equilibrium.set_unloaded(u);
   const NewtonResult  result = stepper.solve(u);
   MaterialPoints<dim> points;
@@ -49,7 +49,7 @@ ContactClosing<dim>::resolve_part(const std::vector<double> &overlaps, const dou
       equilibrium.count_overlap();
       go_on_from(u, std::move(points));
     }
-  model.problem().contact().resolve_overlap({});
+  model.problem().contact().laws().resolve_overlap({});
   return largest_motion;
 }
 
@@ -118,7 +118,7 @@ ContactClosing<dim>::close_without_friction()
       equilibrium.set_time(model.state().time, unused);
       return false;
     }
-  contact.resolve_overlap(std::vector<double>(contact.pairs().size(), 0.));
+  contact.laws().resolve_overlap(std::vector<double>(contact.pairs().size(), 0.));
   bool                is_closed = stepper.solve(u).converged();
   MaterialPoints<dim> points;
   if (is_closed && model.is_moving())
@@ -130,7 +130,7 @@ ContactClosing<dim>::close_without_friction()
     }
   if (is_closed)
     equilibrium.accept_as_transfer(u, model.state().contact);
-  contact.resolve_overlap({});
+  contact.laws().resolve_overlap({});
   equilibrium.set_time(model.state().time, unused);
   if (!is_closed)
     return false;

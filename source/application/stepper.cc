@@ -115,7 +115,7 @@ Stepper<dim>::hooks()
   };
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
     record.linear_iterations += solve_linear_system(r, tolerance, du).iterations;
-    problem.contact().set_touching_holds(false);
+    problem.contact().laws().set_touching_holds(false);
     equilibrium.shorten(du, problem.grid.finest_size());
   };
   hooks.is_geometric = [&](const Vector &r, const double tolerance) {
@@ -125,7 +125,12 @@ Stepper<dim>::hooks()
     return std::max(equilibrium.force_scale(),
                     equilibrium.round_off() / parameters.newton.relative_tolerance);
   };
-  hooks.freeze  = [&](const bool freeze) { problem.contact().freeze_friction(freeze); };
+  hooks.freeze = [&](const bool freeze) {
+    if (freeze)
+      problem.contact().laws().freeze(problem.contact().points(), problem.contact().responses());
+    else
+      problem.contact().laws().unfreeze();
+  };
   hooks.observe = [&](const NewtonIteration &iteration) { observe(iteration); };
   set_hooks_of_mass(hooks);
   return hooks;
@@ -172,12 +177,26 @@ Stepper<dim>::observe(const NewtonIteration &iteration)
 
 template <int dim>
 NewtonResult
+Stepper<dim>::solve_enforced(const Newton &newton, Vector &u)
+{
+  NewtonResult result = newton.solve(u);
+  while (result.converged() && !model.problem().contact().update_enforcement())
+    {
+      const unsigned int n_before = result.iterations;
+      result                      = newton.solve(u);
+      result.iterations += n_before;
+    }
+  return result;
+}
+
+template <int dim>
+NewtonResult
 Stepper<dim>::solve(Vector &u)
 {
   record = StepRecord();
-  model.problem().contact().set_touching_holds(true);
+  model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
-  return Newton(parameters.newton, hooks()).solve(u);
+  return solve_enforced(Newton(parameters.newton, hooks()), u);
 }
 
 template <int dim>
@@ -195,10 +214,10 @@ Stepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vec
   DiscreteProblem<dim> &problem = model.problem();
   Vector                v(start);
   const double          pressed_before = pressed;
-  problem.contact().set_sticks(true);
+  problem.contact().laws().set_sticks(true);
   const unsigned int n_sticking = newton.solve(v).iterations;
-  problem.contact().set_sticks(false);
-  const NewtonResult again = newton.solve(v);
+  problem.contact().laws().set_sticks(false);
+  const NewtonResult again = solve_enforced(newton, v);
   NewtonResult       best  = result;
   if (again.converged())
     {
@@ -218,11 +237,11 @@ template <int dim>
 NewtonResult
 Stepper<dim>::solve_step(Vector &u)
 {
-  model.problem().contact().set_touching_holds(true);
+  model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   const Vector start(u);
   const Newton newton(parameters.newton, hooks());
-  NewtonResult result = newton.solve(u);
+  NewtonResult result = solve_enforced(newton, u);
   if (has_lost_contact(result)) // Friction may hold what sticks at first.
     result = solve_with_sticking(newton, start, u, result);
   if (!has_lost_contact(result))

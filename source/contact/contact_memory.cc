@@ -217,7 +217,7 @@ gathered_rows(const ContactPoints<dim> &contact, const MPI_Comm communicator)
       if (response.status == ContactStatus::open && contact.gap(i) > point.cell_size)
         continue;
       const ContactPair &pair = contact.pairs()[point.pair];
-      if (pair.law.law == ContactLaw::tied && !point.is_glued)
+      if (pair.law.kind->glues && !point.is_glued)
         continue;
       std::vector<double> row = {double(pair.a), double(pair.b)};
       const auto          add = [&row](const Tensor<1, dim> &vector) {
@@ -317,7 +317,7 @@ recall(const std::vector<ContactPoint<dim>> &points, const std::vector<ContactPa
       const ContactPoint<dim> &point   = points[i];
       const ContactPair       &pair    = pairs[point.pair];
       const double             minimum = 1e-12 * point.cell_size * point.cell_size;
-      if (pair.law.law == ContactLaw::tied && !point.is_glued)
+      if (pair.law.kind->glues && !point.is_glued)
         continue;
       search.find(
         {pair.a, pair.b}, point, true,

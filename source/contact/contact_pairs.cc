@@ -16,7 +16,7 @@ law_between(const Body<dim> &a, const Body<dim> &b, const ContactParameters &con
   if (is_driven(a) && is_driven(b))
     return {};
   const auto law = contact.law_of(a.name, b.name);
-  if (law.law == ContactLaw::none)
+  if (!law.kind->acts)
     return {};
   return law;
 }

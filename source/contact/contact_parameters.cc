@@ -1,8 +1,7 @@
 #include <scree/contact/contact_parameters.h>
-#include <scree/parameters/expression_entry.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -86,6 +85,31 @@ why_unused(const unsigned int law, const std::vector<ContactPairParameters> &law
   return "the law '" + laws[law].name + "' fits no two bodies"
          + (is_one ? ": a body is not in contact with itself" : "");
 }
+/** Declares the entry Law and those of all laws, and checks those of the one that is chosen. */
+void
+declare_law(ContactPairParameters &parameters, const ParameterSection &section)
+{
+  std::vector<std::string> names;
+  std::string              descriptions;
+  for (const ContactLaw &law : registered_contact_laws())
+    {
+      names.push_back(law.name);
+      descriptions += (descriptions.empty() ? "" : ", ") + law.name
+                      + (law.description.empty() ? "" : " (" + law.description + ")");
+    }
+  parameters.kind
+    = &contact_law(section.choice("Law", parameters.kind->name, names, descriptions + "."));
+  for (const ContactLaw &law : registered_contact_laws())
+    {
+      const bool is_chosen = &law == parameters.kind;
+      if (law.declare != nullptr)
+        law.declare(parameters, section, is_chosen);
+      for (const std::string &entry : law.entries)
+        if (!is_chosen && section.is_set(entry))
+          section.error(entry, "the law " + parameters.kind->name + " does not use it",
+                        "remove it, or set Law = " + law.name);
+    }
+}
 } // namespace
 
 void
@@ -93,11 +117,7 @@ ContactPairParameters::declare(ParameterSection &section)
 {
   section.entry("Bodies", bodies,
                 "Two names of bodies, in any order; * stands for any text: a default is '*, *'.");
-  section.entry("Law", law, contact_law_names,
-                "none, frictionless, coulomb (friction), stick (no sliding under pressure), tied "
-                "(glued where the bodies touch at the start; elsewhere they do not interact).");
-  section.entry("Friction coefficient", friction_coefficient, dealii::Patterns::Double(0.),
-                "Coulomb's mu; no dimension.");
+  declare_law(*this, section);
   // Softer ones let bodies through one another, stiffer ones leave no digits to the stresses.
   const dealii::Patterns::Double penalty_factor(0.01, 1e6);
   section.entry("Normal penalty factor", normal_factor, penalty_factor,
@@ -111,29 +131,22 @@ ContactPairParameters::declare(ParameterSection &section)
   section.entry("Adjust", adjust, dealii::Patterns::Double(0.),
                 "Gaps and overlaps at the start up to this length count as zero, without strain; "
                 "larger ones stay as they are [L].");
-  section.entry("Tied gap", tied_gap, dealii::Patterns::Double(0.),
-                "Tied: glued are points where the gap at the start, after Adjust, is not larger "
-                "than this; default: a tenth of the cell [L].");
-  section.entry("Where", where,
-                "Tied: expression of x, y, z in the initial configuration that selects the glued "
-                "part (not zero).");
   path = section.path();
-  check_expression<3>(section, "Where", where, 1);
   if (bodies.size() != 2)
     section.error("Bodies", "needs two names", "for example Bodies = block, *");
-  if (law == ContactLaw::coulomb && std::isnan(friction_coefficient))
-    section.error("Friction coefficient", "the law coulomb needs a friction coefficient",
-                  "set Friction coefficient, or Law = frictionless");
-  if (law != ContactLaw::coulomb && !std::isnan(friction_coefficient))
-    section.error("Friction coefficient",
-                  "the law " + name_of(contact_law_names, law) + " has no friction coefficient",
-                  "remove it, or set Law = coulomb");
-  if (law != ContactLaw::tied && !std::isnan(tied_gap))
-    section.error("Tied gap", "the law " + name_of(contact_law_names, law) + " glues nothing",
-                  "remove it, or set Law = tied");
-  if (law != ContactLaw::tied && where != "1")
-    section.error("Where", "the law " + name_of(contact_law_names, law) + " glues nothing",
-                  "remove it, or set Law = tied");
+}
+
+double
+ContactPairParameters::friction() const
+{
+  if (kind->bound == nullptr)
+    return 0.;
+  if (!kind->slides)
+    return std::numeric_limits<double>::infinity();
+  const std::vector<double>  large = {1e50};
+  std::vector<FrictionBound> bound(1);
+  kind->bound(*this, dealii::make_array_view(large), dealii::make_array_view(bound));
+  return bound[0].by_pressure;
 }
 
 bool
@@ -189,7 +202,7 @@ ContactParameters::law_of(const std::string &a, const std::string &b) const
 {
   ContactPairParameters result;
   result.name = "built-in";
-  result.law  = ContactLaw::frictionless;
+  result.kind = &contact_law("frictionless");
   for (const auto &law : laws)
     if (law.matches(a, b))
       result = law;

@@ -50,8 +50,7 @@ pairs_that_may_have_met(const std::vector<Body<dim>> &bodies, const ContactPoint
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (const auto &pair : BodyBoxes<dim>(reached).pairs(0.))
     if (watched.count(pair) == 0 && motion[pair.first] + motion[pair.second] > reach
-        && parameters.law_of(bodies[pair.first].name, bodies[pair.second].name).law
-             != ContactLaw::none)
+        && parameters.law_of(bodies[pair.first].name, bodies[pair.second].name).kind->acts)
       result.push_back(pair);
   return result;
 }

@@ -30,7 +30,7 @@ template <int dim>
 bool
 InitialGaps<dim>::are_needed(const unsigned int pair) const
 {
-  return pairs[pair].law.law == ContactLaw::tied || pairs[pair].law.adjust > 0.;
+  return pairs[pair].law.kind->glues || pairs[pair].law.adjust > 0.;
 }
 
 template <int dim>
@@ -64,7 +64,7 @@ InitialGaps<dim>::apply(const std::array<dealii::Tensor<1, dim>, 2> &displacemen
   const double tied_gap = (std::isnan(law.tied_gap) ? 0.1 * point.cell_size : law.tied_gap)
                           * (point.is_beyond ? 0.1 : 1.);
   point.is_glued
-    = law.law == ContactLaw::tied && gap - adjusted <= tied_gap
+    = law.kind->glues && gap - adjusted <= tied_gap
       && regions[point.pair].selects(point.position - 0.5 * (displacement[0] + displacement[1]));
 }
 

@@ -1,3 +1,4 @@
+#include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/discrete_problem.h>
 #include <scree/mechanics/incremental_kinematics.h>
@@ -21,8 +22,8 @@ template <int dim>
 ContactPoints<dim>
 contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, const double step_size)
 {
-  const Predictor<dim>                   &predictor = state.predictor;
-  typename ContactPoints<dim>::Prediction prediction;
+  const Predictor<dim>    &predictor = state.predictor;
+  IncrementPrediction<dim> prediction;
   if (problem.is_moving() && !predictor.is_empty())
     prediction = [&](const unsigned int b, const dealii::Point<dim> &x) {
       return predictor.expected_increment(state.bodies[b], b, x, step_size);
@@ -31,9 +32,11 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
   if (problem.is_moving())
     ratios = problem.bulk.nodal_secant_ratios();
   return ContactPoints<dim>(
-    problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs, problem.shift(),
-    prediction, problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
-    problem.is_moving() ? &ratios : nullptr);
+    problem.bodies, problem.pairs,
+    level_set_surface(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
+                      problem.shift(), prediction,
+                      problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
+                      problem.is_moving() ? &ratios : nullptr));
 }
 } // namespace
 
@@ -49,7 +52,7 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                                                   contact);
                         }))
     , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
-             equilibrium, contact, problem.timings)
+             equilibrium, contact.points().size(), problem.timings)
 {
 }
 

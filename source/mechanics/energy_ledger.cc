@@ -1,3 +1,4 @@
+#include <scree/contact/contact_energy.h>
 #include <scree/mechanics/energy_ledger.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,31 +120,6 @@ EnergyLedger<dim>::released_work(const EvaluatedState<dim> &state, const Vector 
 }
 
 template <int dim>
-double
-EnergyLedger<dim>::dissipated_work(const ContactHistory<dim> &old_history) const
-{
-  // The work of the tangential tractions on the slip, by the trapezoidal rule.
-  // Where an old traction would drive the slip this is negative; the traction has turned before.
-  double dissipated = 0., not_negative = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const auto &point    = contact.points()[i];
-      const auto &response = contact.responses()[i];
-      const auto &old_tau  = old_history.tau[i];
-      auto        slip     = contact.jumps()[i] - old_history.jump[i];
-      slip -= (slip * point.normal) * point.normal;
-      slip += (response.tau - old_tau) / contact.eps_t(i); // without what the penalty gives back
-      const double at_end = -point.weight * (response.tau * slip);
-      const double mean   = 0.5 * (at_end - point.weight * (old_tau * slip));
-      dissipated += mean;
-      not_negative += mean < 0. ? at_end : mean;
-    }
-  dissipated   = dealii::Utilities::MPI::sum(dissipated, fields.grid.communicator());
-  not_negative = dealii::Utilities::MPI::sum(not_negative, fields.grid.communicator());
-  return dissipated < 0. ? not_negative : dissipated;
-}
-
-template <int dim>
 void
 EnergyLedger<dim>::accept(const EvaluatedState<dim> &state, const ContactHistory<dim> &old_history)
 {
@@ -158,7 +134,7 @@ EnergyLedger<dim>::accept(const EvaluatedState<dim> &state, const ContactHistory
   energies.external_work += 0.5 * (accepted_dead_loads * motion) + work_of_step(state);
   accepted_dead_loads = state.dead_loads;
   set_accepted(state.time, state.u);
-  energies.dissipation += dissipated_work(old_history);
+  energies.dissipation += dissipation(contact, old_history, fields.grid.communicator());
   energies.plastic += store_energies(state);
 }
 
@@ -184,15 +160,7 @@ template <int dim>
 double
 EnergyLedger<dim>::store_energies(const EvaluatedState<dim> &state)
 {
-  double stored = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const auto &response = contact.responses()[i];
-      stored += 0.5 * contact.points()[i].weight
-                * (response.pressure * response.pressure / contact.eps_n(i)
-                   + response.tau.norm_square() / contact.eps_t(i));
-    }
-  current_energies.contact  = dealii::Utilities::MPI::sum(stored, fields.grid.communicator());
+  current_energies.contact  = stored_energy(contact, fields.grid.communicator());
   const auto of_bulk        = kinematics.bulk().work(state.field);
   current_energies.strain   = of_bulk.energy;
   current_energies.boundary = boundary_terms.energy(state.field, state.time);
@@ -246,12 +214,7 @@ EnergyLedger<dim>::start_step(const EvaluatedState<dim> &state, const Vector &un
   accepted_driven    = driving->of_points;
   current_energies   = energies;
   // What laws dissipate at once is counted at the end of the step and was stored before.
-  double cut = 0.;
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    cut += 0.5 * contact.points()[i].weight
-           * (history.tau[i].norm_square() - contact.responses()[i].tau.norm_square())
-           / contact.eps_t(i);
-  cut = dealii::Utilities::MPI::sum(cut, fields.grid.communicator());
+  double cut = cut_energy(contact, history, fields.grid.communicator());
   cut += store_energies(state);
   current_energies.transfer += current_energies.stored() + cut - energies.stored();
 }

@@ -44,7 +44,7 @@ Equilibrium<dim>::set_up_matrices()
 {
   const MPI_Comm communicator = fields.grid.communicator();
   const auto     of_bulk      = bulk.couplings();
-  const auto     of_contact   = contact.couplings();
+  const auto     of_contact   = contact.jump_operator().couplings();
   ghosted_dofs                = fields.relevant();
   for (const auto &unknowns : of_contact)
     ghosted_dofs.add_indices(unknowns.begin(), unknowns.end());
@@ -216,8 +216,7 @@ Condensation
 Equilibrium<dim>::condensation(const bool only_closed)
 {
   newton_matrix.copy_from(stiffness);
-  contact.choose_glued(only_closed);
-  contact.add_glued_to_matrix(newton_matrix);
+  contact.jump_operator().add_stiffness(contact.choose_glued(only_closed), newton_matrix);
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);
@@ -229,7 +228,7 @@ Equilibrium<dim>::condensation(const bool only_closed)
   is_prescribed.compress(dealii::VectorOperation::insert);
   Vector with_ghosts(ghosted);
   with_ghosts     = is_prescribed;
-  SparseRows rows = contact.jump_rows();
+  SparseRows rows = contact.jump_operator().rows();
   for (std::size_t i = 0; i < rows.columns.size(); ++i)
     if (with_ghosts(rows.columns[i]) != 0.)
       rows.values[i] = 0.;

@@ -54,8 +54,7 @@ throw_slides_away(const DiscreteProblem<dim>                  &problem,
     }
   for (const ContactPair &pair : problem.contact().pairs())
     for (const auto &body : moves)
-      has_friction |= (pair.a == body.body || pair.b == body.body)
-                      && pair.law.law != ContactLaw::stick && pair.law.law != ContactLaw::tied;
+      has_friction |= (pair.a == body.body || pair.b == body.body) && pair.law.kind->slides;
   std::string remedy = turns ? "hold it against turning, lower its loads or let them act nearer to "
                                "what holds it"
                              : "support it or lower its loads";

@@ -216,11 +216,11 @@ FreeBodies<dim>::resistance_of_contact() const
     {
       const auto &point    = contact.points()[i];
       const auto &response = contact.responses()[i];
-      const auto &law      = contact.pairs()[point.pair].law;
-      if (response.pressure == 0. && law.law != ContactLaw::tied)
+      const auto &law      = *contact.pairs()[point.pair].law.kind;
+      if (response.pressure == 0. && !law.glues)
         continue;
       directions.assign(1, point.normal);
-      if (response.status == ContactStatus::stick && law.law != ContactLaw::frictionless)
+      if (response.status == ContactStatus::stick)
         for (const auto &tangent : tangents_of<dim>(point.normal))
           directions.push_back(tangent);
       for (const auto &direction : directions)

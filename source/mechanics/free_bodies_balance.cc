@@ -52,6 +52,7 @@ struct FreeBodies<dim>::Balance
   std::vector<std::size_t>            first_of_pair; // entry of the pair's block
   std::vector<unsigned int>           points;        // of contact, with a free body
   std::vector<dealii::Tensor<1, dim>> columns;       // of these points, by coordinates
+  std::vector<dealii::Tensor<1, dim>> jumps;         // of these points
   Coordinates                         mass;          // M
   std::size_t                         n_entries = 0; // of all blocks
 
@@ -78,7 +79,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
     {
       const ContactPoint<dim> &point = contact.points()[i];
       const ContactPair       &pair  = contact.pairs()[point.pair];
-      if (free.coordinates_of_pair[point.pair].empty() || pair.law.law == ContactLaw::none)
+      if (free.coordinates_of_pair[point.pair].empty())
         continue;
       points.push_back(i);
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
@@ -91,6 +92,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
               columns.push_back(sign * free.motion(number, k, x));
           }
     }
+  jumps.resize(points.size());
   std::vector<double> load;
   for (unsigned int i = 0; i < free.free_motions.size(); ++i)
     load.push_back(free.magnitude(loads, i));
@@ -109,16 +111,21 @@ FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
   const unsigned int  n_bodies = free.free_motions.size();
   std::vector<double> all(n + n_bodies + n_entries, 0.);
   const auto         *column = columns.data();
-  for (const unsigned int i : points)
+  for (unsigned int j = 0; j < points.size(); ++j)
     {
-      const ContactPoint<dim> &point       = contact.points()[i];
+      jumps[j] = contact.jumps()[points[j]];
+      for (const unsigned int k : free.coordinates_of_pair[contact.points()[points[j]].pair])
+        jumps[j] += q[k] * *column++;
+    }
+  const auto responses = contact.responses_to(points, jumps, history);
+  column               = columns.data();
+  for (unsigned int j = 0; j < points.size(); ++j)
+    {
+      const ContactPoint<dim> &point       = contact.points()[points[j]];
       const ContactPair       &pair        = contact.pairs()[point.pair];
       const auto              &coordinates = free.coordinates_of_pair[point.pair];
-      auto                     jump        = contact.jumps()[i];
-      for (unsigned int k = 0; k < coordinates.size(); ++k)
-        jump += q[coordinates[k]] * column[k];
-      const auto response = contact.response(i, jump, history);
-      const auto traction = point.weight * response.traction(point.normal);
+      const auto              &response    = responses[j];
+      const auto               traction    = point.weight * response.traction(point.normal);
       if (response.status != ContactStatus::open)
         {
           double *block = all.data() + n + n_bodies + first_of_pair[point.pair];

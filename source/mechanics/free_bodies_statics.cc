@@ -12,7 +12,7 @@ namespace scree
 {
 namespace
 {
-/** Edges of the cone of tractions on b; in 3D a pyramid around Coulomb's cone. */
+/** Edges of the cone of tractions on b; in 3D a pyramid around that of friction. */
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
 edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
@@ -20,9 +20,8 @@ edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
   constexpr unsigned int              n_edges = dim == 2 ? 2 : 8;
   const auto                          tangent = tangents_of<dim>(n);
   std::vector<dealii::Tensor<1, dim>> result;
-  if (law.law == ContactLaw::none)
-    return result;
-  if (law.law == ContactLaw::frictionless || law.friction_coefficient == 0.)
+  const double                        mu = law.friction();
+  if (mu == 0.)
     return {n};
   for (unsigned int k = 0; k < n_edges; ++k)
     {
@@ -30,15 +29,13 @@ edges_of_cone(const ContactPairParameters &law, const dealii::Tensor<1, dim> &n)
       dealii::Tensor<1, dim> t     = std::cos(angle) * tangent[0];
       if constexpr (dim == 3)
         t += std::sin(angle) * tangent[1];
-      if (law.law == ContactLaw::coulomb)
-        result.push_back(n
-                         + law.friction_coefficient
-                             / (dim == 2 ? 1. : std::cos(dealii::numbers::PI / n_edges)) * t);
+      if (std::isfinite(mu))
+        result.push_back(n + mu / (dim == 2 ? 1. : std::cos(dealii::numbers::PI / n_edges)) * t);
       else
         result.push_back(t);
     }
   result.push_back(n);
-  if (law.law == ContactLaw::tied)
+  if (law.kind->glues)
     result.push_back(-n);
   return result;
 }

@@ -7,16 +7,15 @@ namespace scree
 template <int dim>
 SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
                                 const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
-                                const ContactPoints<dim> &contact, Timings &timings)
+                                const std::size_t n_contact_points, Timings &timings)
     : equilibrium(equilibrium)
-    , contact(contact)
     , timings(timings)
     , linear_solver(parameters, dim, degree)
 {
-  const auto n_contact_points
-    = dealii::Utilities::MPI::sum(contact.points().size(), fields.grid.communicator());
+  const auto n_all_points
+    = dealii::Utilities::MPI::sum(n_contact_points, fields.grid.communicator());
   condenses = equilibrium.is_linear_elsewhere()
-              && linear_solver.condenses(fields.n_dofs(), dim * n_contact_points)
+              && linear_solver.condenses(fields.n_dofs(), dim * n_all_points)
               && !equilibrium.has_free_rigid_bodies();
   linear_solver.set_near_null_space(equilibrium.rigid_motions());
   linear_solver.set_border(fields.n_trailing());

@@ -130,8 +130,7 @@ RunReport<dim>::contacts(const DiscreteProblem<dim> &problem, const bool has_man
       largest = std::max(largest, summaries[p].max_penetration);
       if (has_many)
         continue;
-      log.line("Contact " + pair.name + ": " + name_of(contact_law_names, pair.law.law) + " ('"
-               + pair.law.name + "')"
+      log.line("Contact " + pair.name + ": " + pair.law.kind->name + " ('" + pair.law.name + "')"
                + (is_near ? ", initial gap " + short_number(summaries[p].minimum_gap)
                           : ", farther apart than twice the shift"));
       if (overlaps)

@@ -26,8 +26,10 @@ points_with(const CutBodies<dim> &model, const ContactPairParameters &law)
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
     pairs.push_back({a, b, "pair", law});
-  return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                            CutBodies<dim>::shift * model.grid.finest_size());
+  return ContactPoints<dim>(model.bodies, pairs,
+                            level_set_surface(*model.fields, *model.level_set_nodes, model.bodies,
+                                              pairs,
+                                              CutBodies<dim>::shift * model.grid.finest_size()));
 }
 
 /** Largest error of the normals around a disc of radius 1 in a hole. */
@@ -167,7 +169,7 @@ TEST(TiedContact, GluesWhatTouchesAtTheStart)
 {
   const CutBodies<2>    model(box_on_floor<2>(0.53, -0.2, 1, 3));
   ContactPairParameters law;
-  law.law                  = ContactLaw::tied;
+  law.kind                 = &contact_law("tied");
   ContactPoints<2> contact = points_with(model, law);
   const double     h       = model.grid.finest_size();
   for (const double sign : {-1., 1.})
@@ -188,7 +190,7 @@ TEST(TiedContact, GluesAcrossGapsThatTheLawAllows)
 {
   const CutBodies<2>    model(two_half_planes(0.3, 0.02, 1));
   ContactPairParameters law;
-  law.law                 = ContactLaw::tied;
+  law.kind                = &contact_law("tied");
   const auto n_glued_with = [&](const double gap) {
     law.tied_gap        = gap;
     const auto contact  = points_with(model, law);
@@ -207,7 +209,7 @@ TEST(AdjustedContact, StartsWithoutGap)
     {
       const CutBodies<2>    model(two_half_planes(0.3, gap, 2));
       ContactPairParameters law;
-      law.law    = ContactLaw::frictionless;
+      law.kind   = &contact_law("frictionless");
       law.adjust = 0.021;
       for (const auto &point : points_with(model, law).points())
         EXPECT_NEAR(point.initial_gap, 0., 1e-15);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_points.h>
+#include <scree/contact/level_set_surface.h>
 
 #include <cmath>
 #include <functional>
@@ -14,18 +15,20 @@ namespace scree
 /** The contact points of a model, the same law for all pairs. */
 template <int dim>
 ContactPoints<dim>
-contact_points(const CutBodies<dim> &model, const ContactLaw law = ContactLaw::frictionless,
-               const typename ContactPoints<dim>::Prediction &prediction = {})
+contact_points(const CutBodies<dim> &model, const std::string &law = "frictionless",
+               const IncrementPrediction<dim> &prediction = {})
 {
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
     {
       ContactPairParameters parameters;
-      parameters.law = law;
+      parameters.kind = &contact_law(law);
       pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
     }
-  return ContactPoints<dim>(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                            CutBodies<dim>::shift * model.grid.finest_size(), prediction);
+  return ContactPoints<dim>(
+    model.bodies, pairs,
+    level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                      CutBodies<dim>::shift * model.grid.finest_size(), prediction));
 }
 
 /** u with values body by body, ghosted wherever the stencils reach. */
@@ -49,7 +52,7 @@ displacement(const CutBodies<dim> &model, const ContactPoints<dim> &contact,
     }
   owned.compress(dealii::VectorOperation::insert);
   dealii::IndexSet relevant = fields.relevant();
-  for (const auto &unknowns : contact.couplings())
+  for (const auto &unknowns : contact.jump_operator().couplings())
     relevant.add_indices(unknowns.begin(), unknowns.end());
   relevant.compress();
   dealii::TrilinosWrappers::MPI::Vector result(fields.owned(), relevant, model.grid.communicator());

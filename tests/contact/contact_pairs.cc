@@ -22,14 +22,14 @@ TEST(ContactPairs, AreWithinReachAndHaveALaw)
   const auto         near = pairs_within(0.5, model.bodies, parameters);
   ASSERT_EQ(near.size(), 1u);
   EXPECT_EQ(near[0].name, "a-b");
-  EXPECT_EQ(near[0].law.law, ContactLaw::frictionless);
+  EXPECT_EQ(near[0].law.kind->name, "frictionless");
   EXPECT_EQ(pairs_within(4., model.bodies, parameters).size(), 3u);
   EXPECT_TRUE(has_more_pairs_than(2, model.bodies, parameters));
   EXPECT_FALSE(has_more_pairs_than(3, model.bodies, parameters));
 
   ContactPairParameters none;
   none.bodies     = {"a", "b"};
-  none.law        = ContactLaw::none;
+  none.kind       = &contact_law("none");
   parameters.laws = {none};
   EXPECT_TRUE(pairs_within(0.5, model.bodies, parameters).empty());
   EXPECT_FALSE(has_more_pairs_than(2, model.bodies, parameters));

@@ -63,15 +63,20 @@ TEST(ContactPoints, PenaltiesFollowFlow)
       for (const auto i : owned)
         ratios(i) = ratio;
       ratios.compress(VectorOperation::insert);
-      const ContactPoints<2> contact(*model.fields, *model.level_set_nodes, model.bodies, pairs,
-                                     CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr,
-                                     &ratios);
+      const ContactPoints<2> contact(
+        model.bodies, pairs,
+        level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                          CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr, &ratios));
       ASSERT_EQ(contact.points().size(), elastic.points().size());
       for (unsigned int i = 0; i < contact.points().size(); ++i)
         {
           const double factor = std::max(ratio, 0.1);
-          EXPECT_NEAR(contact.eps_n(i), factor * elastic.eps_n(i), 1e-10 * elastic.eps_n(i));
-          EXPECT_NEAR(contact.eps_t(i), factor * elastic.eps_t(i), 1e-10 * elastic.eps_t(i));
+          EXPECT_NEAR(contact.enforcement().stiffness()[i].normal,
+                      factor * elastic.enforcement().stiffness()[i].normal,
+                      1e-10 * elastic.enforcement().stiffness()[i].normal);
+          EXPECT_NEAR(contact.enforcement().stiffness()[i].tangential,
+                      factor * elastic.enforcement().stiffness()[i].tangential,
+                      1e-10 * elastic.enforcement().stiffness()[i].tangential);
         }
     }
 }
@@ -149,10 +154,8 @@ turned_disc(const unsigned int level, const double angle, const bool is_predicte
     const double c = body == 0 ? std::cos(angle) - 1. : 0., s = body == 0 ? std::sin(angle) : 0.;
     return Tensor<1, 2>({c * x[0] - s * x[1], s * x[0] + c * x[1]});
   };
-  ContactPoints<2> contact
-    = contact_points<2>(model, ContactLaw::frictionless,
-                        is_predicted ? typename ContactPoints<2>::Prediction(turn)
-                                     : typename ContactPoints<2>::Prediction());
+  ContactPoints<2> contact = contact_points<2>(
+    model, "frictionless", is_predicted ? IncrementPrediction<2>(turn) : IncrementPrediction<2>());
   contact.evaluate(displacement<2>(model, contact, turn), contact.initial_history());
   TurnedDisc result;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
@@ -213,7 +216,7 @@ TEST(ContactPoints, OverlapIsNegativeGap)
 TEST(ContactPoints, HistoryIsWhatWasEvaluated)
 {
   const CutBodies<2> model(two_half_planes(0., 0.0004, 1));
-  ContactPoints<2>   contact = contact_points(model, ContactLaw::stick);
+  ContactPoints<2>   contact = contact_points(model, "stick");
   const Vector       u = displacement<2>(model, contact, [](const unsigned int body, const auto &) {
     return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({0.01, -0.02});
   });
@@ -221,7 +224,7 @@ TEST(ContactPoints, HistoryIsWhatWasEvaluated)
   const auto history = contact.current_history();
   ASSERT_FALSE(history.tau.empty());
   const double eps_t = 10. * 1000. / model.grid.finest_size();
-  EXPECT_NEAR(contact.eps_t(0), eps_t, 1e-9 * eps_t);
+  EXPECT_NEAR(contact.enforcement().stiffness()[0].tangential, eps_t, 1e-9 * eps_t);
   for (unsigned int i = 0; i < history.tau.size(); ++i)
     {
       // Only the motion after closing causes friction.

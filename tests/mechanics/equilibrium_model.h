@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/linear_prediction.h>
 #include <scree/mechanics/total_kinematics.h>
@@ -58,8 +59,9 @@ struct EquilibriumModel
       , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
-      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                input.contact.shift * cut.grid.finest_size())
+      , contact(cut.bodies, contact_pairs(),
+                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                  input.contact.shift * cut.grid.finest_size()))
       , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
       , linear_solver(input.linear, dim, cut.fields->basis.degree)
   {
@@ -75,7 +77,7 @@ struct EquilibriumModel
     for (const auto &[a, b] : cut.pairs)
       {
         const auto law = input.contact.law_of(cut.bodies[a].name, cut.bodies[b].name);
-        if (law.law != ContactLaw::none)
+        if (law.kind->acts)
           pairs.push_back({a, b, cut.bodies[a].name + "-" + cut.bodies[b].name, law});
       }
     return pairs;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/incremental_kinematics.h>
 #include <scree/points/seeding.h>
@@ -36,8 +37,9 @@ struct StartedStep
           std::make_unique<const CutCellGauss<dim>>(*cut.fields, quadrature, cut.bodies, start), 0.)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
-      , contact(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                input.contact.shift * cut.grid.finest_size())
+      , contact(cut.bodies, contact_pairs(),
+                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                  input.contact.shift * cut.grid.finest_size()))
       , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
   {
   }

@@ -71,6 +71,8 @@ public:
 
 private:
   NewtonResult solve_step(Vector &u);
+  /** Newton's method, again while the enforcement of contact changes its multipliers. */
+  NewtonResult solve_enforced(const Newton &newton, Vector &u);
   /** Whether all contact pressure went in the last solution, though there was some. */
   bool              has_lost_contact(const NewtonResult &result) const;
   NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <scree/contact/contact_law.h>
-#include <scree/parameters/section.h>
 
 #include <limits>
 #include <string>
@@ -14,7 +13,7 @@ struct ContactPairParameters
 {
   std::string              name;
   std::vector<std::string> bodies               = {"*", "*"}; //!< two names; '*' matches any text
-  ContactLaw               law                  = ContactLaw::coulomb;
+  const ContactLaw        *kind                 = &contact_law("coulomb");
   double                   friction_coefficient = std::numeric_limits<double>::quiet_NaN();
   double                   normal_factor        = 10.; //!< c_n in eps_n = c_n E/h
   double                   tangential_factor    = 10.; //!< c_t in eps_t = c_t E/h
@@ -28,6 +27,9 @@ struct ContactPairParameters
   std::string path;           //!< of the section, for messages
 
   void declare(ParameterSection &section);
+
+  /** db/dp of the friction under large pressures; infinite where nothing slides. */
+  double friction() const;
 
   /** Whether the law is meant for the two bodies, in either order. */
   bool matches(const std::string &a, const std::string &b) const;

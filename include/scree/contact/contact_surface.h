@@ -42,6 +42,7 @@ struct ContactPoint
   bool                   is_exact  = false; //!< near a kink or of least gap, from exact distances
   bool                   is_beyond = false; //!< an edge: the surfaces there do not face each other
   NormalOf               normal_of = NormalOf::both; //!< known from exact distances
+  double                 stiffness_ratio = 1.;       //!< E'/E of bodies that flow
   /** x_a and x_b, where the displacements of a and b are taken. */
   std::array<dealii::Point<dim>, 2> feet = {};
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/solver/condensed_solver.h>
+#include <scree/base/sparse_rows.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 

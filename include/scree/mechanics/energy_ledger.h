@@ -96,8 +96,6 @@ private:
   /** What the unbalanced forces of the start of the step release in its motion. */
   double released_work(const EvaluatedState<dim> &state, const Vector &motion,
                        const ContactHistory<dim> &old_history) const;
-  /** Of friction since the accepted state. */
-  double dissipated_work(const ContactHistory<dim> &old_history) const;
   void   set_accepted_forces(const EvaluatedState<dim> &state);
   void   set_accepted_conditions(const EvaluatedState<dim> &state);
   void   set_unloaded();

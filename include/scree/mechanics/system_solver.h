@@ -19,10 +19,13 @@ class SystemSolver
 public:
   using Vector = typename Equilibrium<dim>::Vector;
 
-  /** @param degree of the basis */
+  /**
+   * @param degree of the basis
+   * @param n_contact_points of this process
+   */
   SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
                const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
-               const ContactPoints<dim> &contact, Timings &timings);
+               const std::size_t n_contact_points, Timings &timings);
 
   /**
    * Solves K du = r to |r - K du| <= tolerance |r| or better, K at the last residual()
@@ -39,7 +42,6 @@ private:
   LinearSolveResult solve_condensed(const Vector &r, Vector &du);
 
   Equilibrium<dim>                &equilibrium;
-  const ContactPoints<dim>        &contact;
   Timings                         &timings;
   LinearSolver                     linear_solver;
   bool                             condenses; //!< few contact points, and nothing else changes K

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/base/sparse_rows.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/mumps.h>
 
@@ -7,19 +8,6 @@
 
 namespace scree
 {
-/** Sparse rows on this process; columns are unknowns of any process. */
-struct SparseRows
-{
-  std::vector<std::size_t> begin = {0}; //!< row i has the entries begin[i] ... begin[i + 1] - 1
-  std::vector<int>         columns;
-  std::vector<double>      values;
-
-  std::size_t n_rows() const
-  {
-    return begin.size() - 1;
-  }
-};
-
 /**
  * Solves (K + B^T E B) x = b for many E and b with one factorisation (Sherman, Morrison, Woodbury):
  * with the compliance C = B K^{-1} B^T of the rows of B,

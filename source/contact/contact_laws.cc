@@ -1,0 +1,138 @@
+#include <scree/contact/contact_laws.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace scree
+{
+namespace
+{
+/** Consecutive entries of arrays. */
+struct Range
+{
+  std::size_t first, n;
+
+  template <typename Array>
+  auto of(Array &values) const
+  {
+    return dealii::make_array_view(values, first, n);
+  }
+};
+
+/** Calls f(pair, range) for the ranges of `numbers` that name points of the same pair. */
+template <int dim, typename F>
+void
+for_each_pair(const std::vector<ContactPoint<dim>> &points,
+              const std::vector<unsigned int> &numbers, const F &f)
+{
+  for (std::size_t i = 0, end = 0; i < numbers.size(); i = end)
+    {
+      const unsigned int pair = points[numbers[i]].pair;
+      while (end < numbers.size() && points[numbers[end]].pair == pair)
+        ++end;
+      f(pair, Range{i, end - i});
+    }
+}
+} // namespace
+
+template <int dim>
+const ContactLaw &
+ContactLaws<dim>::acting_law(const unsigned int pair) const
+{
+  static const ContactLaw &frictionless = contact_law("frictionless"),
+                          &stick        = contact_law("stick");
+  const ContactLaw &law                 = *of_pairs[pair].law.kind;
+  if (law.glues)
+    return law;
+  if (!pair_allowances.empty())
+    return frictionless;
+  return all_stick && law.bound && law.slides ? stick : law;
+}
+
+template <int dim>
+std::vector<ContactMotion<dim>>
+ContactLaws<dim>::motions(const std::vector<ContactPoint<dim>>      &points,
+                          const std::vector<unsigned int>           &numbers,
+                          const std::vector<dealii::Tensor<1, dim>> &jumps,
+                          const ContactHistory<dim>                 &history) const
+{
+  std::vector<ContactMotion<dim>> result;
+  result.reserve(numbers.size());
+  for (unsigned int i = 0; i < numbers.size(); ++i)
+    {
+      const ContactPoint<dim> &point = points[numbers[i]];
+      const double             gap
+        = point.initial_gap + (pair_allowances.empty() ? 0. : pair_allowances[point.pair]);
+      auto motion         = ContactMotion<dim>::between(gap, point.normal, history.jump[numbers[i]],
+                                                        jumps[i], point.is_glued);
+      motion.touching_gap = touching_holds ? 1e-8 * point.cell_size : 0.;
+      if (!frozen_bounds.empty() && !point.is_glued && acting_law(point.pair).bound)
+        {
+          motion.closed_part  = frozen_closed_parts[numbers[i]];
+          motion.closed_rate  = 0.;
+          motion.touching_gap = -1.;
+        }
+      result.push_back(motion);
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<ContactResponse<dim>>
+ContactLaws<dim>::respond(const std::vector<ContactPoint<dim>>  &points,
+                          const std::vector<unsigned int>       &numbers,
+                          const std::vector<ContactMotion<dim>> &motions,
+                          const std::vector<TrialTraction<dim>> &trials) const
+{
+  std::vector<ContactResponse<dim>> responses(numbers.size());
+  std::vector<double>               pressures;
+  std::vector<FrictionBound>        bounds(numbers.size());
+  for (const TrialTraction<dim> &trial : trials)
+    pressures.push_back(std::max(0., trial.pressure));
+  for (unsigned int i = 0; i < numbers.size() && !frozen_bounds.empty(); ++i)
+    bounds[i].value = frozen_bounds[numbers[i]];
+  for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
+    const ContactLaw &law = acting_law(pair);
+    if (law.bound && frozen_bounds.empty())
+      law.bound(of_pairs[pair].law, range.of(std::as_const(pressures)), range.of(bounds));
+    return_to_admissible<dim>(law, range.of(motions), range.of(trials),
+                              range.of(std::as_const(bounds)), range.of(responses));
+  });
+  return responses;
+}
+
+template <int dim>
+void
+ContactLaws<dim>::freeze(const std::vector<ContactPoint<dim>>    &points,
+                         const std::vector<ContactResponse<dim>> &responses)
+{
+  unfreeze();
+  std::vector<unsigned int> numbers(points.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  std::vector<double> pressures;
+  for (const ContactResponse<dim> &response : responses)
+    {
+      pressures.push_back(response.pressure);
+      frozen_closed_parts.push_back(response.closed_part);
+    }
+  std::vector<FrictionBound> bounds(points.size());
+  for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
+    const ContactPairParameters &law = of_pairs[pair].law;
+    if (law.kind->bound)
+      law.kind->bound(law, range.of(std::as_const(pressures)), range.of(bounds));
+  });
+  for (const FrictionBound &bound : bounds)
+    frozen_bounds.push_back(bound.value);
+}
+
+template <int dim>
+void
+ContactLaws<dim>::unfreeze()
+{
+  frozen_bounds.clear();
+  frozen_closed_parts.clear();
+}
+
+template class ContactLaws<2>;
+template class ContactLaws<3>;
+} // namespace scree
