@@ -24,14 +24,16 @@ Equilibrium<dim>::set_up_artificial_mass()
       }
   bulk.add_lumped_volumes(artificial_mass, factors);
   artificial_mass.compress(dealii::VectorOperation::add);
+  std::vector<unsigned int> rigid_ones;
   for (const FreeMotion &free : free_bodies())
     if (bodies[free.body].is_rigid())
-      {
-        const double mass = rigid.stiffness_scale(free.body);
-        for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-          if (fields.owned().is_element(fields.rigid_unknown(free.body) + m))
-            artificial_mass(fields.rigid_unknown(free.body) + m) = mass;
-      }
+      rigid_ones.push_back(free.body);
+  const std::vector<double> masses = rigid.stiffness_scales(rigid_ones);
+  for (unsigned int i = 0; i < rigid_ones.size(); ++i)
+    for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+      if (const DofIndex unknown = fields.rigid_unknown(rigid_ones[i]) + m;
+          fields.owned().is_element(unknown))
+        artificial_mass(unknown) = masses[i];
   artificial_mass.compress(dealii::VectorOperation::insert);
 }
 

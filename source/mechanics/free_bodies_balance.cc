@@ -179,7 +179,7 @@ template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::Balance::direction(const double length, const double damping) const
 {
-  dealii::SparseMatrix<double> stiffness(free.couplings), damped(free.couplings);
+  dealii::SparseMatrix<double> stiffness(free.couplings);
   for (unsigned int p = 0; p < first_of_pair.size(); ++p)
     {
       const auto &coordinates = free.coordinates_of_pair[p];
@@ -200,17 +200,17 @@ FreeBodies<dim>::Balance::direction(const double length, const double damping) c
   dealii::SolverControl                  control;
   dealii::TrilinosWrappers::SolverDirect solver(
     control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Klu"));
-  dealii::TrilinosWrappers::SparseMatrix matrix;
-  double                                 largest = 0.;
+  dealii::TrilinosWrappers::SparseMatrix damped;
+  damped.reinit(stiffness, 0.);
+  double                 largest = 0.;
   dealii::Vector<double> right_side(forces.begin(), forces.end()), dq(forces.size());
   double                 s = std::max(damping * stiffest, 1e-6 * alone);
   for (unsigned int trial = 0; trial < max_trials; ++trial, s *= 10.)
     {
-      damped.copy_from(stiffness);
       for (unsigned int k = 0; k < mass.size(); ++k)
-        damped.add(k, k, s * mass[k]);
-      matrix.reinit(damped, 0.);
-      solver.solve(matrix, dq, right_side);
+        damped.set(k, k, stiffness.diag_element(k) + s * mass[k]);
+      damped.compress(dealii::VectorOperation::insert);
+      solver.solve(damped, dq, right_side);
       largest = dq.linfty_norm();
       if (largest <= length)
         break;

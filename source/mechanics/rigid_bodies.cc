@@ -116,18 +116,23 @@ RigidBodies<dim>::is_symmetric(const double time) const
 }
 
 template <int dim>
-double
-RigidBodies<dim>::stiffness_scale(const unsigned int body) const
+std::vector<double>
+RigidBodies<dim>::stiffness_scales(const std::vector<unsigned int> &free_bodies) const
 {
-  double modulus = 0.;
+  std::vector<double> moduli(bodies.size(), 0.);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
-    if (contact.pairs()[p].a == body || contact.pairs()[p].b == body)
-      modulus = std::max(modulus, contact.modulus(p));
-  require(modulus > 0., bodies[body].path,
-          "the rigid body '" + bodies[body].name
-            + "' moves freely, but no other body is near enough for contact",
-          "place it nearer, raise Contact/Shift, or prescribe its motion");
-  return modulus * (dim == 2 ? 1. : bodies[body].rigid->radius);
+    for (const unsigned int b : {contact.pairs()[p].a, contact.pairs()[p].b})
+      moduli[b] = std::max(moduli[b], contact.modulus(p));
+  std::vector<double> result;
+  for (const unsigned int b : free_bodies)
+    {
+      require(moduli[b] > 0., bodies[b].path,
+              "the rigid body '" + bodies[b].name
+                + "' moves freely, but no other body is near enough for contact",
+              "place it nearer, raise Contact/Shift, or prescribe its motion");
+      result.push_back(moduli[b] * (dim == 2 ? 1. : bodies[b].rigid->radius));
+    }
+  return result;
 }
 
 template <int dim>

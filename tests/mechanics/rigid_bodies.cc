@@ -79,7 +79,8 @@ compare_tangent(const std::string &text, const double size, const double angle, 
           const DofIndex index = model.cut.fields->rigid_unknown(1) + m;
           if (model.cut.fields->owned().is_element(index))
             product(index)
-              = product(index) - 1e-6 * equilibrium.rigid_bodies().stiffness_scale(1) * v(index);
+              = product(index)
+                - 1e-6 * equilibrium.rigid_bodies().stiffness_scales({1})[0] * v(index);
         }
       product.compress(VectorOperation::insert);
       Vector moved(u);

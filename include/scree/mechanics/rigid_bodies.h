@@ -55,8 +55,12 @@ public:
   /** Whether that derivative is symmetric. */
   bool is_symmetric(const double time) const;
 
-  /** Stiffness scale E L^(dim - 2) of a free body from its contacts [force/L]. @throws UserError */
-  double stiffness_scale(const unsigned int body) const;
+  /**
+   * Stiffness scales E L^(dim - 2) of free rigid bodies from their contacts [force/L].
+   *
+   * @throws UserError if a body has none
+   */
+  std::vector<double> stiffness_scales(const std::vector<unsigned int> &free_bodies) const;
 
   /** Work of prescribed motions and applied loads from one state to the next, on the owner. */
   double work(const Vector &u, const Vector &old_u, const Vector &forces,
