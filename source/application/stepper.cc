@@ -62,7 +62,7 @@ Stepper<dim>::attempt()
           return attempt;
         }
     }
-  if (!model.is_moving())
+  else
     require_small_rotations(problem, balances, model.state(), time);
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.shift(), problem.communicator());

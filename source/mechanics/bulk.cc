@@ -108,7 +108,7 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
       if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
         continue;
       const CellRule<dim> points = rule(a);
-      const double        size   = fields.grid.cells()[cell.grid_cell].size;
+      const double        size   = fields.cell_size(a);
       set_reference_volumes(a, reference_volumes);
       double volume = 0., reference_volume = 0.;
       cell_load      = 0.;

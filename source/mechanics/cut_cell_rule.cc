@@ -13,7 +13,7 @@ cut_cell_rule(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
   if (!cell.is_cut)
     return {quadrature.whole_cell.points.data(), quadrature.whole_cell.weights.data(),
             static_cast<unsigned int>(quadrature.whole_cell.points.size()),
-            std::pow(fields.grid.cells()[cell.grid_cell].size, dim)};
+            std::pow(fields.cell_size(active_cell), dim)};
   const unsigned int begin = quadrature.bulk.begin[active_cell];
   return {quadrature.bulk.points.data() + begin, quadrature.bulk.weights.data() + begin,
           quadrature.bulk.begin[active_cell + 1] - begin, 1.};

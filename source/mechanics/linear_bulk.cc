@@ -133,7 +133,7 @@ LinearBulk<dim>::add_to_matrix(Matrix &matrix) const
           constraints.distribute_local_to_global(cell_matrix, indices, matrix);
           continue;
         }
-      auto &shared = whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
+      auto &shared = whole_cells[{cell.body, fields.cell_size(a)}];
       if (shared.empty())
         cell_stiffness(a, shared);
       constraints.distribute_local_to_global(shared, indices, matrix);
@@ -176,10 +176,8 @@ LinearBulk<dim>::work(const PointEvaluator<dim> &u) const
   double                                                                energy = 0.;
   for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell   = fields.cells()[a];
-      auto             &matrix = cell.is_cut
-                                   ? cut_cell
-                                   : whole_cells[{cell.body, fields.grid.cells()[cell.grid_cell].size}];
+      const ActiveCell &cell = fields.cells()[a];
+      auto &matrix = cell.is_cut ? cut_cell : whole_cells[{cell.body, fields.cell_size(a)}];
       if (cell.is_cut || matrix.empty())
         cell_stiffness(a, matrix);
       // Without the translation of the cell, which has no energy but round-off.
