@@ -7,7 +7,8 @@ namespace
 {
 template <int dim>
 void
-declare(BoundaryConditionParameters<dim> &p, const ParameterSection &section, const bool is_chosen)
+declare_displacement_condition(BoundaryConditionParameters<dim> &p, const ParameterSection &section,
+                               const bool is_chosen)
 {
   section.entry("Method", p.method, displacement_method_names,
                 "How a displacement is imposed; automatic: exactly on a box face, by Nitsche on "
@@ -28,7 +29,7 @@ displacement_condition()
   kind.name       = "displacement";
   kind.imposition = Imposition::displacement;
   kind.entries    = {"On", "Where", "Components", "Method", "Penalty factor"};
-  kind.declare    = declare<dim>;
+  kind.declare    = declare_displacement_condition<dim>;
   return kind;
 }
 

@@ -7,7 +7,8 @@ namespace
 {
 template <int dim>
 void
-declare(BoundaryConditionParameters<dim> &p, const ParameterSection &section, const bool)
+declare_point_support(BoundaryConditionParameters<dim> &p, const ParameterSection &section,
+                      const bool)
 {
   section.entry("Point", p.point, "Position of a point support [L].");
 }
@@ -21,7 +22,7 @@ point_support()
   kind.name       = "point support";
   kind.imposition = Imposition::vertex;
   kind.entries    = {"Components", "Point"};
-  kind.declare    = declare<dim>;
+  kind.declare    = declare_point_support<dim>;
   return kind;
 }
 

@@ -8,9 +8,9 @@ namespace
 /** -p J_D F_D^{-T} n and its derivative; F_D = I on a fixed geometry. */
 template <int dim>
 void
-evaluate(const BoundaryCondition<dim>                    &condition,
-         const dealii::ArrayView<const SurfacePoint<dim>> points, const double time,
-         const dealii::ArrayView<SurfaceTraction<dim>> tractions)
+evaluate_pressure(const BoundaryCondition<dim>                    &condition,
+                  const dealii::ArrayView<const SurfacePoint<dim>> points, const double time,
+                  const dealii::ArrayView<SurfaceTraction<dim>> tractions)
 {
   for (std::size_t q = 0; q < points.size(); ++q)
     {
@@ -45,7 +45,7 @@ pressure_condition()
   kind.imposition  = Imposition::traction;
   kind.entries     = {"On", "Where"};
   kind.needs_value = true;
-  kind.law         = {evaluate<dim>, false, true, acts_on_exact_boundary<dim>};
+  kind.law         = {evaluate_pressure<dim>, false, true, acts_on_exact_boundary<dim>};
   return kind;
 }
 

@@ -8,9 +8,9 @@ namespace
 {
 template <int dim>
 void
-evaluate(const BoundaryCondition<dim>                    &condition,
-         const dealii::ArrayView<const SurfacePoint<dim>> points, const double /*time*/,
-         const dealii::ArrayView<SurfaceTraction<dim>>    tractions)
+evaluate_spring(const BoundaryCondition<dim>                    &condition,
+                const dealii::ArrayView<const SurfacePoint<dim>> points, const double /*time*/,
+                const dealii::ArrayView<SurfaceTraction<dim>>    tractions)
 {
   for (std::size_t q = 0; q < points.size(); ++q)
     for (unsigned int k = 0; k < condition.components.size(); ++k)
@@ -36,7 +36,7 @@ spring_condition()
   kind.imposition         = Imposition::traction;
   kind.entries            = {"On", "Where", "Components"};
   kind.needs_value        = true;
-  kind.law.evaluate       = evaluate<dim>;
+  kind.law.evaluate       = evaluate_spring<dim>;
   kind.law.resists_motion = true;
   return kind;
 }

@@ -7,9 +7,9 @@ namespace
 {
 template <int dim>
 void
-evaluate(const BoundaryCondition<dim>                    &condition,
-         const dealii::ArrayView<const SurfacePoint<dim>> points, const double time,
-         const dealii::ArrayView<SurfaceTraction<dim>> tractions)
+evaluate_traction(const BoundaryCondition<dim>                    &condition,
+                  const dealii::ArrayView<const SurfacePoint<dim>> points, const double time,
+                  const dealii::ArrayView<SurfaceTraction<dim>> tractions)
 {
   for (std::size_t q = 0; q < points.size(); ++q)
     tractions[q].traction
@@ -26,7 +26,7 @@ traction_condition()
   kind.imposition                 = Imposition::traction;
   kind.entries                    = {"On", "Where", "Components"};
   kind.needs_value                = true;
-  kind.law.evaluate               = evaluate<dim>;
+  kind.law.evaluate               = evaluate_traction<dim>;
   kind.law.acts_on_exact_boundary = [](const BoundaryConditionParameters<dim> &) { return true; };
   return kind;
 }

@@ -8,8 +8,9 @@ namespace scree
 namespace
 {
 void
-bound(const ContactPairParameters &parameters, const dealii::ArrayView<const double> &pressures,
-      const dealii::ArrayView<FrictionBound> &bounds)
+coulomb_bound(const ContactPairParameters            &parameters,
+              const dealii::ArrayView<const double>  &pressures,
+              const dealii::ArrayView<FrictionBound> &bounds)
 {
   const double mu = parameters.friction_coefficient;
   for (std::size_t i = 0; i < pressures.size(); ++i)
@@ -17,7 +18,8 @@ bound(const ContactPairParameters &parameters, const dealii::ArrayView<const dou
 }
 
 void
-declare(ContactPairParameters &parameters, const ParameterSection &section, const bool is_chosen)
+declare_coulomb(ContactPairParameters &parameters, const ParameterSection &section,
+                const bool is_chosen)
 {
   section.entry("Friction coefficient", parameters.friction_coefficient,
                 dealii::Patterns::Double(0.), "Coulomb's mu; no dimension.");
@@ -33,9 +35,9 @@ coulomb_law()
   ContactLaw law;
   law.name        = "coulomb";
   law.description = "friction";
-  law.bound       = bound;
+  law.bound       = coulomb_bound;
   law.entries     = {"Friction coefficient"};
-  law.declare     = declare;
+  law.declare     = declare_coulomb;
   return law;
 }
 } // namespace scree

@@ -7,8 +7,8 @@ namespace scree
 namespace
 {
 void
-bound(const ContactPairParameters &, const dealii::ArrayView<const double> &pressures,
-      const dealii::ArrayView<FrictionBound> &bounds)
+stick_bound(const ContactPairParameters &, const dealii::ArrayView<const double> &pressures,
+            const dealii::ArrayView<FrictionBound> &bounds)
 {
   for (std::size_t i = 0; i < pressures.size(); ++i)
     bounds[i] = {pressures[i] > 0. ? std::numeric_limits<double>::infinity() : 0., 0.};
@@ -22,7 +22,7 @@ stick_law()
   law.name        = "stick";
   law.description = "no sliding under pressure";
   law.slides      = false;
-  law.bound       = bound;
+  law.bound       = stick_bound;
   return law;
 }
 } // namespace scree

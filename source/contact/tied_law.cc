@@ -10,15 +10,15 @@ namespace scree
 namespace
 {
 void
-bound(const ContactPairParameters &, const dealii::ArrayView<const double> &,
-      const dealii::ArrayView<FrictionBound> &bounds)
+tied_bound(const ContactPairParameters &, const dealii::ArrayView<const double> &,
+           const dealii::ArrayView<FrictionBound> &bounds)
 {
   std::fill(bounds.begin(), bounds.end(),
             FrictionBound{std::numeric_limits<double>::infinity(), 0.});
 }
 
 void
-declare(ContactPairParameters &parameters, const ParameterSection &section, const bool)
+declare_tied(ContactPairParameters &parameters, const ParameterSection &section, const bool)
 {
   section.entry("Tied gap", parameters.tied_gap, dealii::Patterns::Double(0.),
                 "Tied: glued are points where the gap at the start, after Adjust, is not larger "
@@ -38,9 +38,9 @@ tied_law()
   law.description = "glued where the bodies touch at the start; elsewhere they do not interact";
   law.glues       = true;
   law.slides      = false;
-  law.bound       = bound;
+  law.bound       = tied_bound;
   law.entries     = {"Tied gap", "Where"};
-  law.declare     = declare;
+  law.declare     = declare_tied;
   return law;
 }
 } // namespace scree

@@ -10,7 +10,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_box(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   const auto &lower = p.coordinates("Lower corner"), &upper = p.coordinates("Upper corner");
   for (std::size_t d = 0; d < std::min(lower.size(), upper.size()); ++d)
@@ -31,7 +31,7 @@ Box<dim>::family()
           [](const ShapeParameters<dim> &p) -> ShapePointer<dim> {
             return std::make_unique<Box<dim>>(p.point("Lower corner"), p.point("Upper corner"));
           },
-          check<dim>};
+          check_box<dim>};
 }
 
 template <int dim>

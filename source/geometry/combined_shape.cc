@@ -10,7 +10,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_combined(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   if (p.parts.size() == 1)
     section.error("Parts", "a combination needs at least 2 parts", "as in set Parts = a, b");
@@ -18,7 +18,7 @@ check(const ShapeParameters<dim> &p, const ParameterSection &section)
 
 template <int dim>
 ShapePointer<dim>
-make(const ShapeParameters<dim> &p)
+make_combined(const ShapeParameters<dim> &p)
 {
   std::vector<ShapePointer<dim>> parts;
   for (const auto &part : p.parts)
@@ -37,8 +37,8 @@ CombinedShape<dim>::family()
   return {{"union", "intersection", "difference"},
           "union, intersection and difference (the first without the others) of Parts",
           {},
-          make<dim>,
-          check<dim>,
+          make_combined<dim>,
+          check_combined<dim>,
           true};
 }
 

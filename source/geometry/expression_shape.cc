@@ -40,7 +40,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_expression(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   if (const std::string &formula = p.text("Expression"); !formula.empty())
     check_expression<dim>(section, "Expression", formula, 1);
@@ -48,7 +48,7 @@ check(const ShapeParameters<dim> &p, const ParameterSection &section)
 
 template <int dim>
 ShapePointer<dim>
-make(const ShapeParameters<dim> &p)
+make_expression(const ShapeParameters<dim> &p)
 {
   const std::string             &formula   = p.text("Expression");
   const std::vector<std::string> arguments = extremum_arguments(formula);
@@ -72,8 +72,8 @@ ExpressionShape<dim>::family()
            {"Expression is distance",
             "Whether the formula is the signed distance, so that it is used as it is", "", false,
             false, false}},
-          make<dim>,
-          check<dim>};
+          make_expression<dim>,
+          check_expression<dim>};
 }
 
 template <int dim>

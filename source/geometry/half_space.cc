@@ -11,7 +11,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_half_space(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   const auto &normal = p.coordinates("Normal");
   if (!normal.empty()
@@ -31,7 +31,7 @@ HalfSpace<dim>::family()
           [](const ShapeParameters<dim> &p) -> ShapePointer<dim> {
             return std::make_unique<HalfSpace<dim>>(p.point("Point"), p.point("Normal"));
           },
-          check<dim>};
+          check_half_space<dim>};
 }
 
 template <int dim>

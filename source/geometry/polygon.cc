@@ -33,7 +33,7 @@ segment_meets_box(const Point<2> &a, const Point<2> &b, const BoundingBox<2> &bo
 
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_polygon(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   const auto &vertices = p.vertices("Vertices");
   if (dim == 3)
@@ -49,7 +49,7 @@ check(const ShapeParameters<dim> &p, const ParameterSection &section)
 
 template <int dim>
 ShapePointer<dim>
-make(const ShapeParameters<dim> &p)
+make_polygon(const ShapeParameters<dim> &p)
 {
   if constexpr (dim == 2)
     return std::make_unique<Polygon>(p.vertices("Vertices"));
@@ -66,8 +66,8 @@ Polygon::family()
           "polygon (2D)",
           {{"Vertices", "Corners of % in order, as in 0,0; 1,0; 1,1", "[length]",
             std::vector<Point<2>>()}},
-          make<dim>,
-          check<dim>};
+          make_polygon<dim>,
+          check_polygon<dim>};
 }
 
 Polygon::Polygon(const std::vector<Point<2>> &vertices)

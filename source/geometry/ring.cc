@@ -11,7 +11,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_ring(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   if (p.number("Inner radius") >= p.number("Radius"))
     section.error("Inner radius", "'Inner radius' is not less than 'Radius'");
@@ -30,7 +30,7 @@ Ring<dim>::family()
             return std::make_unique<Ring<dim>>(p.point("Centre"), p.number("Inner radius"),
                                                p.number("Radius"));
           },
-          check<dim>};
+          check_ring<dim>};
 }
 
 template <int dim>

@@ -11,7 +11,7 @@ namespace
 {
 template <int dim>
 void
-check(const ShapeParameters<dim> &p, const ParameterSection &section)
+check_superellipse(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
   if (p.number("Exponent") < 1)
     section.error("Exponent", "'Exponent' must be at least 1");
@@ -32,7 +32,7 @@ Superellipse<dim>::family()
             return std::make_unique<Superellipse<dim>>(p.point("Centre"), p.point("Semi-axes"),
                                                        p.number("Exponent"));
           },
-          check<dim>};
+          check_superellipse<dim>};
 }
 
 template <int dim>

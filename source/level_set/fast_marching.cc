@@ -12,7 +12,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double far_away = std::numeric_limits<double>::infinity();
 
 // Node numbers by a value in spacings, from the smallest bucket on; 256 buckets per spacing, in a
 // ring of 4 spacings.
@@ -99,7 +99,7 @@ double
 solve_eikonal(const std::array<UpwindDifference, dim> &axes, const int n_axes)
 {
   const double origin = axes[0].nearest;
-  double       a = 0, b = 0, c = -1, result = infinity;
+  double       a = 0, b = 0, c = -1, result = far_away;
   for (int i = 0; i < n_axes; ++i)
     {
       const double nearest = axes[i].nearest - origin, base = axes[i].base - origin,
@@ -165,12 +165,12 @@ March<dim>::March(const Lattice<dim> &lattice, const std::vector<char> &known_no
     }
   AssertThrow(size < std::numeric_limits<std::uint32_t>::max(),
               ExcMessage("The lattice is too large for fast marching."));
-  distances.assign(size, infinity);
+  distances.assign(size, far_away);
   const double scale = 1 / lattice.spacing();
   for_each_line([&](const std::size_t from, const std::size_t to) {
     for (int i = 0; i < n_nodes[0]; ++i)
       distances[to + i]
-        = known_nodes[from + i] ? std::abs(lattice.values()[from + i]) * scale : -infinity;
+        = known_nodes[from + i] ? std::abs(lattice.values()[from + i]) * scale : -far_away;
   });
 }
 
@@ -193,10 +193,10 @@ March<dim>::distance(const double *node) const
   int                               n_axes = 0;
   for (unsigned int d = 0; d < dim; ++d)
     {
-      const double below   = node[-stride[d]] >= 0 ? node[-stride[d]] : infinity,
-                   above   = node[stride[d]] >= 0 ? node[stride[d]] : infinity;
+      const double below   = node[-stride[d]] >= 0 ? node[-stride[d]] : far_away,
+                   above   = node[stride[d]] >= 0 ? node[stride[d]] : far_away;
       const double nearest = std::min(below, above);
-      if (nearest == infinity)
+      if (nearest == far_away)
         continue;
       const double           over = below < above ? node[-2 * stride[d]] : node[2 * stride[d]];
       const UpwindDifference axis = over >= 0 && over <= nearest
@@ -224,7 +224,7 @@ March<dim>::update_neighbours(const std::uint32_t node)
         const double candidate = distance(distances.data() + next);
         if (!(candidate < old))
           continue;
-        if (old == infinity || BucketQueue::bucket(candidate) != BucketQueue::bucket(old))
+        if (old == far_away || BucketQueue::bucket(candidate) != BucketQueue::bucket(old))
           queue.push(candidate, next);
         distances[next] = -candidate;
       }

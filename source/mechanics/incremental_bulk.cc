@@ -12,7 +12,7 @@ namespace
 {
 template <int dim>
 std::vector<double>
-shares(const std::vector<Body<dim>> &bodies)
+shares_of_laws(const std::vector<Body<dim>> &bodies)
 {
   std::vector<double> result;
   for (const auto &body : bodies)
@@ -28,7 +28,7 @@ IncrementalBulk<dim>::IncrementalBulk(const Fields<dim>            &fields,
                                       const SmallCutTreatment<dim> &small_cuts,
                                       const BulkQuadrature<dim>    &points,
                                       const PointEvaluator<dim>    &u_n)
-    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
+    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares_of_laws(bodies))
     , points(points)
     , u_n(u_n)
     , projection(fields, bodies, points, projected_shares)

@@ -12,7 +12,7 @@ namespace
 {
 template <int dim>
 std::vector<double>
-shares(const std::vector<Body<dim>> &bodies)
+shares_of_materials(const std::vector<Body<dim>> &bodies)
 {
   std::vector<double> result;
   for (const auto &body : bodies)
@@ -31,7 +31,7 @@ template <int dim>
 LinearBulk<dim>::LinearBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
                             const std::vector<Body<dim>> &bodies,
                             const SmallCutTreatment<dim> &small_cuts)
-    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares(bodies))
+    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares_of_materials(bodies))
 {
 }
 
