@@ -105,9 +105,9 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{parameters.degree, parameters.ghost_penalty,
-                                     parameters.contact.shift, parameters.moving,
-                                     parameters.linear_solver};
+  const ProblemParameters of_problem{parameters.degree,        parameters.ghost_penalty,
+                                     parameters.contact.shift, parameters.contact.enforcement,
+                                     parameters.moving,        parameters.linear_solver};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }
@@ -116,7 +116,7 @@ template <int dim>
 void
 Model<dim>::accept(const Vector &u, const double time)
 {
-  const ContactPoints<dim> &contact = problem().contact();
+  ContactPoints<dim> &contact = problem().contact();
   if (time > current.time)
     {
       current.predictor.step_size = time - current.time;
@@ -132,9 +132,10 @@ Model<dim>::accept(const Vector &u, const double time)
     }
   current.displacement = u;
   current.contact      = contact.current_history();
-  current.energies     = problem().equilibrium().energies();
-  current.time         = time;
-  current.has_started  = true;
+  contact.start_step(current.contact);
+  current.energies    = problem().equilibrium().energies();
+  current.time        = time;
+  current.has_started = true;
 }
 
 template <int dim>
@@ -224,6 +225,7 @@ Model<dim>::start_step()
   current.displacement.compress(dealii::VectorOperation::insert);
   current.contact = recall(problem().contact(), end.contact);
   keep_resultants(problem().contact(), end.contact, current.contact, communicator);
+  problem().contact().start_step(current.contact);
   problem().equilibrium().start_step(current.time, current.displacement, current.contact,
                                      current.energies,
                                      !current.has_started ? nullptr : &end.driving);

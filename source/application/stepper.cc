@@ -33,6 +33,7 @@ Stepper<dim>::attempt()
   record.step = step_control.n_accepted() + 1;
   record.time = time;
   problem.equilibrium().set_second_attempt(is_second_attempt);
+  problem.contact().start_step(model.state().contact);
   auto u = first_guess<dim>(problem, model.state(), time, [&](const Vector &b, Vector &x) {
     solve_linear_system(b, parameters.linear_solver.tolerance, x);
   });
@@ -179,9 +180,18 @@ template <int dim>
 NewtonResult
 Stepper<dim>::solve_enforced(const Newton &newton, Vector &u)
 {
-  NewtonResult result = newton.solve(u);
-  while (result.converged() && !model.problem().contact().update_enforcement())
+  const unsigned int max_updates = parameters.contact.enforcement.maximum_updates;
+  NewtonResult       result      = newton.solve(u);
+  for (unsigned int n = 0; result.converged() && !model.problem().contact().update_enforcement();
+       ++n)
     {
+      if (n == max_updates)
+        {
+          result.status  = NewtonStatus::max_iterations;
+          result.message = "contact is not enforced after " + std::to_string(n)
+                           + " updates of the multipliers, see Contact/Augmented Lagrangian";
+          break;
+        }
       const unsigned int n_before = result.iterations;
       result                      = newton.solve(u);
       result.iterations += n_before;
@@ -195,6 +205,7 @@ Stepper<dim>::solve(Vector &u)
 {
   record = StepRecord();
   model.problem().contact().laws().set_touching_holds(true);
+  model.problem().contact().start_step(model.state().contact);
   pressed = most_pressed = 0.;
   return solve_enforced(Newton(parameters.newton, hooks()), u);
 }
@@ -238,6 +249,7 @@ NewtonResult
 Stepper<dim>::solve_step(Vector &u)
 {
   model.problem().contact().laws().set_touching_holds(true);
+  model.problem().contact().start_step(model.state().contact);
   pressed = most_pressed = 0.;
   const Vector start(u);
   const Newton newton(parameters.newton, hooks());

@@ -68,9 +68,8 @@ ContactLaws<dim>::motions(const std::vector<ContactPoint<dim>>      &points,
       motion.touching_gap = touching_holds ? 1e-8 * point.cell_size : 0.;
       if (!frozen_bounds.empty() && !point.is_glued && acting_law(point.pair).bound)
         {
-          motion.closed_part  = frozen_closed_parts[numbers[i]];
-          motion.closed_rate  = 0.;
-          motion.touching_gap = -1.;
+          motion.kept_closed_part = frozen_closed_parts[numbers[i]];
+          motion.touching_gap     = -1.;
         }
       result.push_back(motion);
     }

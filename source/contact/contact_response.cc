@@ -3,6 +3,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -23,15 +24,21 @@ ContactMotion<dim>::between(const double initial_gap, const dealii::Tensor<1, di
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
       motion.slide[i] += ((i == j ? 1. : 0.) - normal[i] * normal[j]) * increment[j];
-  motion.is_glued      = is_glued;
-  const double old_gap = initial_gap + normal * old_jump;
-  if (old_gap > 0. && motion.gap < 0. && !is_glued)
-    {
-      const double approach = old_gap - motion.gap;
-      motion.closed_part    = -motion.gap / approach;
-      motion.closed_rate    = -old_gap / (approach * approach);
-    }
+  motion.is_glued  = is_glued;
+  motion.start_gap = initial_gap + normal * old_jump;
   return motion;
+}
+
+template <int dim>
+ClosedPart
+ContactMotion<dim>::closed_part(const double depth) const
+{
+  if (!std::isnan(kept_closed_part))
+    return {kept_closed_part, 0.};
+  if (is_glued || !(start_gap > 0. && depth > 0.))
+    return {};
+  const double approach = start_gap + depth;
+  return {depth / approach, -start_gap / (approach * approach)};
 }
 
 namespace
@@ -51,16 +58,16 @@ add_friction(const FrictionBound &bound, const ContactMotion<dim> &motion,
 {
   const dealii::Tensor<1, dim> &n          = motion.normal;
   const dealii::Tensor<2, dim>  projection = tangential_projection(n);
-  const dealii::Tensor<2, dim>  elastic
-    = trial.tangential_stiffness
-      * (motion.closed_part * projection + motion.closed_rate * outer_product(motion.slide, n));
+  const auto [f, df_by_dg]                 = trial.closed_part;
+  const dealii::Tensor<2, dim> elastic
+    = trial.tangential_stiffness * (f * projection + df_by_dg * outer_product(motion.slide, n));
   const double length  = trial.tau.norm();
-  response.closed_part = motion.closed_part;
+  response.closed_part = f;
   if (length <= bound.value)
     {
       response.status       = ContactStatus::stick;
       response.tau          = trial.tau;
-      response.is_symmetric = motion.closed_rate == 0.;
+      response.is_symmetric = df_by_dg == 0.;
       response.tangent += elastic;
       return;
     }
@@ -68,7 +75,7 @@ add_friction(const FrictionBound &bound, const ContactMotion<dim> &motion,
   response.status                        = ContactStatus::slip;
   response.tau                           = bound.value * direction;
   response.slip                          = (length - bound.value) / trial.tangential_stiffness;
-  response.is_symmetric                  = bound.by_pressure == 0. && motion.closed_rate == 0.;
+  response.is_symmetric                  = bound.by_pressure == 0. && df_by_dg == 0.;
   response.tangent
     += bound.by_pressure * trial.normal_stiffness * outer_product(direction, n)
        + bound.value / length * (projection - outer_product(direction, direction)) * elastic;

@@ -15,9 +15,10 @@ Penalty<dim>::trial_tractions(const std::vector<unsigned int>       &numbers,
       const unsigned int        p      = numbers[i];
       const ContactMotion<dim> &motion = motions[i];
       const auto [eps_n, eps_t]        = penalties[p];
+      const ClosedPart closed_part     = motion.closed_part(-motion.gap);
       result.push_back(
         {motion.is_glued ? history.pressure[p] - eps_n * motion.opening : -eps_n * motion.gap,
-         history.tau[p] - eps_t * motion.closed_part * motion.slide, eps_n, eps_t});
+         history.tau[p] - eps_t * closed_part.value * motion.slide, eps_n, eps_t, closed_part});
     }
   return result;
 }

@@ -1,4 +1,5 @@
 #include <scree/contact/level_set_surface.h>
+#include <scree/contact/make_enforcement.h>
 #include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/discrete_problem.h>
 #include <scree/mechanics/incremental_kinematics.h>
@@ -31,12 +32,16 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
   typename Bulk<dim>::Vector ratios;
   if (problem.is_moving())
     ratios = problem.bulk.nodal_secant_ratios();
-  return ContactPoints<dim>(
+  ContactPoints<dim> contact(
     problem.bodies, problem.pairs,
     level_set_surface(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
                       problem.shift(), prediction,
                       problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
                       problem.is_moving() ? &ratios : nullptr));
+  contact.set_enforcement(make_enforcement<dim>(problem.parameters.enforcement, contact.points(),
+                                                contact.enforcement().stiffness(),
+                                                problem.communicator()));
+  return contact;
 }
 } // namespace
 

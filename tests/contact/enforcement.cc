@@ -1,8 +1,8 @@
-// Enforcement by penalties, and by another one through the same interface.
+// Enforcement by penalties and by multipliers.
 #include <gtest/gtest.h>
 
 #include <scree/contact/contact_energy.h>
-#include <scree/contact/penalty.h>
+#include <scree/contact/make_enforcement.h>
 
 #include <cmath>
 #include <memory>
@@ -15,54 +15,18 @@ namespace
 {
 using namespace dealii;
 
-/** Uzawa's method for the pressure: p_t = lambda - eps_n g, lambda <- p till gaps close. */
-class Uzawa : public Penalty<2>
+/** Replaces the penalties of `contact` by multipliers on top of them. */
+template <int dim>
+void
+use_multipliers(ContactPoints<dim> &contact, const double growth = 1.)
 {
-public:
-  Uzawa(const std::vector<ContactStiffness> &penalties, const double largest_gap)
-      : Penalty<2>(penalties)
-      , multipliers(penalties.size())
-      , largest_gap(largest_gap)
-  {
-  }
-
-  std::vector<TrialTraction<2>> trial_tractions(const std::vector<unsigned int>     &numbers,
-                                                const std::vector<ContactMotion<2>> &motions,
-                                                const ContactHistory<2> &history) const override
-  {
-    auto result = Penalty<2>::trial_tractions(numbers, motions, history);
-    for (unsigned int i = 0; i < numbers.size(); ++i)
-      result[i].pressure += multipliers[numbers[i]];
-    return result;
-  }
-
-  std::vector<double> stored_energy(const std::vector<double>       &pressures,
-                                    const std::vector<Tensor<1, 2>> &tau) const override
-  {
-    std::vector<double> elastic = pressures;
-    for (unsigned int i = 0; i < elastic.size(); ++i)
-      elastic[i] -= multipliers[i];
-    return Penalty<2>::stored_energy(elastic, tau);
-  }
-
-  bool update(const std::vector<ContactResponse<2>> &responses) override
-  {
-    ++n_updates;
-    bool is_enforced = true;
-    for (unsigned int i = 0; i < responses.size(); ++i)
-      is_enforced
-        &= std::abs(responses[i].pressure - multipliers[i]) <= largest_gap * stiffness()[i].normal;
-    for (unsigned int i = 0; i < responses.size() && !is_enforced; ++i)
-      multipliers[i] = responses[i].pressure;
-    return is_enforced;
-  }
-
-  unsigned int n_updates = 0;
-
-private:
-  std::vector<double> multipliers;
-  double              largest_gap;
-};
+  EnforcementParameters parameters;
+  parameters.type           = "augmented Lagrangian";
+  parameters.largest_growth = growth;
+  contact.set_enforcement(make_enforcement<dim>(parameters, contact.points(),
+                                                contact.enforcement().stiffness(), MPI_COMM_WORLD));
+  contact.start_step(contact.initial_history());
+}
 
 /** Two half planes; the upper one is pressed down by a force, and held by a soft spring. */
 class PressedPlane
@@ -134,23 +98,112 @@ TEST(Enforcement, MultipliersCloseTheGap)
   PressedPlane plane;
   plane.solve(force);
   const double overlap_of_penalty = plane.largest_overlap();
-  auto         uzawa
-    = std::make_unique<Uzawa>(plane.contact.enforcement().stiffness(), 1e-6 * overlap_of_penalty);
-  auto &state = *uzawa;
-  plane.contact.set_enforcement(std::move(uzawa));
+  use_multipliers(plane.contact);
   plane.solve(force);
   EXPECT_NEAR(plane.largest_overlap(), overlap_of_penalty, 1e-9 * overlap_of_penalty);
-  while (!plane.contact.update_enforcement() && state.n_updates < 10)
+  unsigned int n_updates = 0;
+  for (; !plane.contact.update_enforcement() && n_updates < 10; ++n_updates)
     plane.solve(force);
-  EXPECT_GT(state.n_updates, 1u);
-  EXPECT_LT(state.n_updates, 5u);
-  EXPECT_LT(plane.largest_overlap(), 1e-5 * overlap_of_penalty);
+  EXPECT_GT(n_updates, 0u);
+  EXPECT_LT(n_updates, 5u);
+  EXPECT_LT(plane.largest_overlap(), 1e-6 * plane.contact.points()[0].cell_size);
   double total = 0.;
   for (unsigned int i = 0; i < plane.contact.points().size(); ++i)
     total += plane.contact.points()[i].weight * plane.contact.responses()[i].pressure;
   EXPECT_NEAR(total, force + plane.spring * plane.height, 1e-8 * force);
   // What is enforced stores nothing.
-  EXPECT_LT(stored_energy(plane.contact, MPI_COMM_WORLD), 1e-9 * force * overlap_of_penalty);
+  EXPECT_EQ(stored_energy(plane.contact, MPI_COMM_WORLD), 0.);
+  // The next step starts with these tractions and has nothing to do.
+  const auto history = plane.contact.current_history();
+  plane.contact.start_step(history);
+  const double height = plane.height;
+  EXPECT_EQ(plane.solve(force), 0u);
+  EXPECT_EQ(plane.height, height);
+  EXPECT_TRUE(plane.contact.update_enforcement());
+}
+
+TEST(Enforcement, MultipliersHoldWhatSticks)
+{
+  const CutBodies<2> model(two_half_planes(0., -0.0004, 1));
+  ContactPoints<2>   contact = contact_points(model, "stick");
+  use_multipliers(contact);
+  const auto history = contact.initial_history();
+  const auto u = displacement<2>(model, contact, [](const unsigned int body, const Point<2> &) {
+    return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({1e-4, 0.});
+  });
+  contact.evaluate(u, history);
+  const double eps_t = contact.enforcement().stiffness()[0].tangential,
+               first = contact.responses()[0].tau.norm();
+  EXPECT_NEAR(first, 1e-4 * eps_t, 1e-9 * first);
+  // A slide that does not give in meets ever larger tractions.
+  EXPECT_FALSE(contact.update_enforcement());
+  contact.evaluate(u, history);
+  EXPECT_NEAR(contact.responses()[0].tau.norm(), 2. * first, 1e-3 * first);
+  // A step that begins again has forgotten them.
+  contact.start_step(history);
+  contact.evaluate(u, history);
+  EXPECT_NEAR(contact.responses()[0].tau.norm(), first, 1e-9 * first);
+}
+
+/** The tangents of all points after an update, by differences of jumps. */
+TEST(Enforcement, TangentOfMultipliers)
+{
+  const CutBodies<2> model(two_half_planes(0.1, 0.0004, 1));
+  for (const std::string law : {"frictionless", "coulomb", "stick"})
+    {
+      std::vector<ContactPair> pairs;
+      for (const auto &[a, b] : model.pairs)
+        {
+          ContactPairParameters parameters;
+          parameters.kind                 = &contact_law(law);
+          parameters.friction_coefficient = 0.3;
+          pairs.push_back({a, b, "pair", parameters});
+        }
+      ContactPoints<2> contact(
+        model.bodies, pairs,
+        level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+                          CutBodies<2>::shift * model.grid.finest_size(), {}));
+      use_multipliers(contact);
+      const auto history = contact.initial_history();
+      const auto moved   = [&](const double x, const double y) {
+        return displacement<2>(
+          model, contact, [x, y](const unsigned int body, const Point<2> &place) {
+            return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({x * (1. + place[0]), y});
+          });
+      };
+      contact.evaluate(moved(2e-4, -0.001), history);
+      contact.update_enforcement();
+      contact.evaluate(moved(3e-4, -0.0008), history);
+      const auto                jumps = contact.jumps();
+      std::vector<unsigned int> numbers;
+      for (unsigned int p = 0; p < jumps.size(); ++p)
+        numbers.push_back(p);
+      const auto   responses = contact.responses_to(numbers, jumps, history);
+      const double delta     = 1e-9;
+      unsigned int n_closed  = 0;
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          auto plus = jumps, minus = jumps;
+          for (unsigned int p = 0; p < jumps.size(); ++p)
+            {
+              plus[p][d] += delta;
+              minus[p][d] -= delta;
+            }
+          const auto up   = contact.responses_to(numbers, plus, history),
+                     down = contact.responses_to(numbers, minus, history);
+          for (unsigned int p = 0; p < jumps.size(); ++p)
+            {
+              const Tensor<1, 2> &n = contact.points()[p].normal;
+              const Tensor<1, 2>  difference
+                = (down[p].traction(n) - up[p].traction(n)) / (2. * delta);
+              const double scale = contact.enforcement().stiffness()[p].normal;
+              for (unsigned int c = 0; c < 2; ++c)
+                EXPECT_NEAR(responses[p].tangent[c][d], difference[c], 1e-6 * scale) << law;
+              n_closed += responses[p].pressure > 0.;
+            }
+        }
+      EXPECT_GT(n_closed, 0u);
+    }
 }
 
 TEST(Enforcement, CutTractionsLoseTheirEnergy)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_law.h>
+#include <scree/contact/enforcement_parameters.h>
 
 #include <limits>
 #include <string>
@@ -40,6 +41,7 @@ struct ContactParameters
 {
   std::vector<ContactPairParameters> laws;
   double                             shift = 4.; //!< largest phi on the contact surface, in h
+  EnforcementParameters              enforcement;
 
   void declare(ParameterSection &section, const std::vector<std::string> &body_names);
 

@@ -53,6 +53,12 @@ public:
     contact_enforcement = std::move(other);
   }
 
+  /** Enforcement::start_step(). */
+  void start_step(const ContactHistory<dim> &history)
+  {
+    contact_enforcement->start_step(history);
+  }
+
   /** Enforcement::update() in the equilibrium of the last evaluation (collective). */
   bool update_enforcement()
   {

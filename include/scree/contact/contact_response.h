@@ -5,6 +5,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <limits>
+
 namespace scree
 {
 /** State of a contact point. */
@@ -17,21 +19,24 @@ enum class ContactStatus : unsigned char
 
 extern const EnumNames<ContactStatus> contact_status_names;
 
-/**
- * How the bodies move at a contact point. f is the part of the step during which the point is
- * closed, 1 if it was closed at the start and -g/(g_n - g) if it closes from the gap g_n: motion
- * before the closing causes no friction, so that tau vanishes with p at the edge of a growing
- * contact.
- */
+/** The part f of a step during which a contact point is closed. */
+struct ClosedPart
+{
+  double value = 1.; //!< f
+  double rate  = 0.; //!< df/dg [1/L]
+};
+
+/** How the bodies move at a contact point. */
 template <int dim>
 struct ContactMotion
 {
-  dealii::Tensor<1, dim> normal;           //!< n, unit, from a to b
-  double                 gap     = 0.;     //!< g = g_0 + n.[[u]], negative: overlap [L]
-  double                 opening = 0.;     //!< n.([[u]] - [[u]]_n) [L]
-  dealii::Tensor<1, dim> slide;            //!< P ([[u]] - [[u]]_n), P = I - n n^T [L]
-  double                 closed_part = 1.; //!< f
-  double                 closed_rate = 0.; //!< df/dg [1/L]
+  dealii::Tensor<1, dim> normal;         //!< n, unit, from a to b
+  double                 gap       = 0.; //!< g = g_0 + n.[[u]], negative: overlap [L]
+  double                 start_gap = 0.; //!< g_n [L]
+  double                 opening   = 0.; //!< n.([[u]] - [[u]]_n) [L]
+  dealii::Tensor<1, dim> slide;          //!< P ([[u]] - [[u]]_n), P = I - n n^T [L]
+  /** f, if something else keeps it; NaN: nothing does. */
+  double kept_closed_part = std::numeric_limits<double>::quiet_NaN();
   /** Gaps from 0 up to this hold in the tangent, without traction; negative: none do [L]. */
   double touching_gap = 0.;
   bool   is_glued     = false;
@@ -40,6 +45,15 @@ struct ContactMotion
   static ContactMotion between(const double initial_gap, const dealii::Tensor<1, dim> &normal,
                                const dealii::Tensor<1, dim> &old_jump,
                                const dealii::Tensor<1, dim> &jump, const bool is_glued);
+
+  /**
+   * f = 1 if the point was closed at the start, d/(g_n + d) if it closes from the gap g_n to the
+   * depth d = p_t/k_n: motion before the closing causes no friction, so that tau vanishes with p at
+   * the edge of a growing contact.
+   *
+   * @param depth d [L], dd/dg = -1
+   */
+  ClosedPart closed_part(const double depth) const;
 };
 
 /** A traction on b that the law has not limited yet. */
@@ -48,8 +62,9 @@ struct TrialTraction
 {
   double                 pressure;             //!< p_t, negative: tension
   dealii::Tensor<1, dim> tau;                  //!< tau_t, tangential
-  double                 normal_stiffness;     //!< -dp_t/dg [force/area/L]
-  double                 tangential_stiffness; //!< -dtau_t/d(f P [[u]]) [force/area/L]
+  double                 normal_stiffness;     //!< k_n = -dp_t/dg [force/area/L]
+  double                 tangential_stiffness; //!< k_t = -dtau_t/d(f P [[u]]) [force/area/L]
+  ClosedPart             closed_part;          //!< f
 };
 
 /** Tractions of body a on body b and their derivative. */

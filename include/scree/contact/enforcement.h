@@ -44,6 +44,9 @@ public:
   elastic_slides(const std::vector<dealii::Tensor<1, dim>> &old_tau,
                  const std::vector<dealii::Tensor<1, dim>> &tau) const = 0;
 
+  /** A step begins, or begins again, from `history` (collective). */
+  virtual void start_step(const ContactHistory<dim> &history) = 0;
+
   /**
    * Updates multipliers in an equilibrium with these responses (collective).
    *

@@ -38,6 +38,10 @@ public:
   elastic_slides(const std::vector<dealii::Tensor<1, dim>> &old_tau,
                  const std::vector<dealii::Tensor<1, dim>> &tau) const override;
 
+  void start_step(const ContactHistory<dim> &) override
+  {
+  }
+
   bool update(const std::vector<ContactResponse<dim>> &) override
   {
     return true;

@@ -15,6 +15,7 @@ struct ProblemParameters
   unsigned int                    degree;        //!< of the basis
   double                          ghost_penalty; //!< gamma
   double                          contact_shift; //!< bound on phi on the contact surface, in h
+  const EnforcementParameters    &enforcement;
   const MovingGeometryParameters &moving;
   const LinearSolverParameters   &linear_solver;
 };
