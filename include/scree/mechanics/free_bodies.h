@@ -194,6 +194,8 @@ private:
   Coordinates rotations(const Coordinates &motion) const;
   /** Sums of the lengths of contact forces on the free bodies (collective). */
   std::vector<double> contact_on_bodies() const;
+  /** Of the coordinates in balancing(): in all on a moving geometry, else in an iteration. */
+  double longest_motion() const;
   /** Part of what acts on a free body that may be out of balance: contact acts at points. */
   double tolerance(const unsigned int free_body) const;
   /** What the coordinates of a free body do to its unknown j, from where u has brought it; null:
