@@ -269,7 +269,7 @@ FreeBodies<dim>::tolerance(const unsigned int i) const
 template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &history,
-                           const bool is_settling) const
+                           const double negligible, const bool is_settling) const
 {
   const double length     = longest_motion();
   const bool   is_falling = is_settling || !turns_finitely;
@@ -278,7 +278,12 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
   Balance      balance(*this, loads, history, is_falling);
   Coordinates  q(n_coordinates, 0.);
   balance.evaluate(q);
-  if (is_settling ? balance.is_balanced() : !balance.has_lost_contact())
+  const auto is_negligible = [&]() {
+    return std::inner_product(balance.forces.begin(), balance.forces.end(), balance.forces.begin(),
+                              0.)
+           <= negligible * negligible;
+  };
+  if (is_negligible() || (is_settling ? balance.is_balanced() : !balance.has_lost_contact()))
     return {};
   // Contact points stay where they are in a step: a moving geometry follows after a cell.
   const auto room = [&]() {
@@ -287,8 +292,9 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
       moved = std::max(moved, std::abs(part));
     return turns_finitely ? length - moved : length;
   };
-  for (unsigned int iteration = 0;
-       iteration < max_iterations && !balance.is_balanced() && room() > 1e-3 * length; ++iteration)
+  for (unsigned int iteration = 0; iteration < max_iterations && !balance.is_balanced()
+                                   && !is_negligible() && room() > 1e-3 * length;
+       ++iteration)
     {
       const Coordinates dq    = balance.direction(room(), damping);
       const Coordinates start = q;
@@ -331,7 +337,7 @@ FreeBodies<dim>::work(const Coordinates &forces, const Coordinates &motion) cons
 
 #define SCREE_INSTANTIATE(dim)                                                                    \
   template std::vector<double> FreeBodies<dim>::balancing(                                        \
-    const std::vector<double> &, const ContactHistory<dim> &, const bool) const;                  \
+    const std::vector<double> &, const ContactHistory<dim> &, const double, const bool) const;    \
   template double FreeBodies<dim>::magnitude(const std::vector<double> &, const unsigned int)     \
     const;                                                                                        \
   template double FreeBodies<dim>::tolerance(const unsigned int) const;                           \
