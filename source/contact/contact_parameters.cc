@@ -209,4 +209,14 @@ ContactParameters::law_of(const std::string &a, const std::string &b) const
       result = law;
   return result;
 }
+
+std::vector<bool>
+ContactParameters::roles_of(const std::string &body) const
+{
+  std::vector<bool> result;
+  for (const auto &law : laws)
+    for (const std::string &pattern : law.bodies)
+      result.push_back(fits(pattern, body));
+  return result;
+}
 } // namespace scree

@@ -149,7 +149,8 @@ Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &hi
   if (free_bodies().empty())
     return {};
   const auto forces = loads_on_free_bodies();
-  const auto motion = free.balancing(forces, history, is_settling);
+  // A body sums the round-off of its nodes.
+  const auto motion = free.balancing(forces, history, 10. * round_off(), is_settling);
   if (motion.empty())
     return {};
   free.add(motion, u, turns_infinitesimally());

@@ -41,8 +41,13 @@ struct FreeBodies<dim>::Balance
   /** Whether contact carries less than half of what acts on some body. */
   bool has_lost_contact() const;
 
-  /** dq of (K + s M) dq = F, not longer than `length`. */
-  Coordinates direction(const double length, const double damping) const;
+  dealii::SparseMatrix<double> stiffness() const;
+
+  /**
+   * dq of (K + s M) dq = F, not longer than `length`, with the smallest s in steps of 10 that
+   * allows that. It is sought from the last one on.
+   */
+  Coordinates direction(const double length, const double damping);
 
   const FreeBodies          &free;
   const Coordinates         &loads;
@@ -56,9 +61,10 @@ struct FreeBodies<dim>::Balance
   Coordinates                         mass;          // M
   std::size_t                         n_entries = 0; // of all blocks
 
-  Coordinates         forces; // F
-  std::vector<double> acting; // on each free body
-  std::vector<double> blocks; // K, by pairs
+  Coordinates         forces;      // F
+  std::vector<double> acting;      // on each free body
+  std::vector<double> blocks;      // K, by pairs
+  double              last_s = 0.; // of direction()
 };
 
 template <int dim>
@@ -81,7 +87,7 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
       const ContactPair       &pair  = contact.pairs()[point.pair];
       if (free.coordinates_of_pair[point.pair].empty())
         continue;
-      points.push_back(i);
+      const std::size_t n_before = columns.size();
       for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
         if (const unsigned int number = free.number_of[body]; number != none)
           {
@@ -91,6 +97,15 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
             for (unsigned int k = 0; k < free.bases[number].n(); ++k)
               columns.push_back(sign * free.motion(number, k, x));
           }
+      // What stays open in all motions that balancing() allows is left out.
+      double approach = 0.;
+      for (std::size_t k = n_before; k < columns.size(); ++k)
+        approach += free.longest_motion() * std::abs(columns[k] * point.normal);
+      if (free.turns_finitely && contact.responses()[i].status == ContactStatus::open
+          && contact.gap(i) > 1.01 * approach)
+        columns.resize(n_before);
+      else
+        points.push_back(i);
     }
   jumps.resize(points.size());
   std::vector<double> load;
@@ -176,24 +191,32 @@ FreeBodies<dim>::Balance::has_lost_contact() const
 }
 
 template <int dim>
-typename FreeBodies<dim>::Coordinates
-FreeBodies<dim>::Balance::direction(const double length, const double damping) const
+dealii::SparseMatrix<double>
+FreeBodies<dim>::Balance::stiffness() const
 {
-  dealii::SparseMatrix<double> stiffness(free.couplings);
+  dealii::SparseMatrix<double> result(free.couplings);
   for (unsigned int p = 0; p < first_of_pair.size(); ++p)
     {
       const auto &coordinates = free.coordinates_of_pair[p];
       for (unsigned int k = 0; k < coordinates.size(); ++k)
         for (unsigned int l = 0; l < coordinates.size(); ++l)
-          stiffness.add(coordinates[k], coordinates[l],
-                        blocks[first_of_pair[p] + k * coordinates.size() + l]);
+          result.add(coordinates[k], coordinates[l],
+                     blocks[first_of_pair[p] + k * coordinates.size() + l]);
     }
+  return result;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::Balance::direction(const double length, const double damping)
+{
+  const auto K = stiffness();
   // Alone, M would allow `length` with this s.
   double alone = 0., stiffest = 0.;
   for (unsigned int k = 0; k < mass.size(); ++k)
     {
       alone    = std::max(alone, std::abs(forces[k]) / (mass[k] * length));
-      stiffest = std::max(stiffest, stiffness.diag_element(k));
+      stiffest = std::max(stiffest, K.diag_element(k));
     }
   // KLU gives the same bits in every run: BLAS rounds by the alignment of its arrays, and which
   // contact closes first may hang on that.
@@ -201,23 +224,38 @@ FreeBodies<dim>::Balance::direction(const double length, const double damping) c
   dealii::TrilinosWrappers::SolverDirect solver(
     control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Klu"));
   dealii::TrilinosWrappers::SparseMatrix damped;
-  damped.reinit(stiffness, 0.);
-  double                 largest = 0.;
-  dealii::Vector<double> right_side(forces.begin(), forces.end()), dq(forces.size());
-  double                 s = std::max(damping * stiffest, 1e-6 * alone);
-  for (unsigned int trial = 0; trial < max_trials; ++trial, s *= 10.)
-    {
-      for (unsigned int k = 0; k < mass.size(); ++k)
-        damped.set(k, k, stiffness.diag_element(k) + s * mass[k]);
-      damped.compress(dealii::VectorOperation::insert);
-      solver.solve(damped, dq, right_side);
-      largest = dq.linfty_norm();
-      if (largest <= length)
-        break;
-    }
-  if (largest > length)
+  damped.reinit(K, 0.);
+  const dealii::Vector<double> right_side(forces.begin(), forces.end());
+  dealii::Vector<double>       dq(forces.size());
+  const auto                   fits = [&](const double s, dealii::Vector<double> &solution) {
+    for (unsigned int k = 0; k < mass.size(); ++k)
+      damped.set(k, k, K.diag_element(k) + s * mass[k]);
+    damped.compress(dealii::VectorOperation::insert);
+    solver.solve(damped, solution, right_side);
+    return solution.linfty_norm() <= length;
+  };
+  std::vector<double> s = {std::max(damping * stiffest, 1e-6 * alone)};
+  while (s.size() < max_trials)
+    s.push_back(10. * s.back());
+  // The s of the last direction is near.
+  std::size_t i = std::upper_bound(s.begin() + 1, s.end(), 1.1 * last_s) - s.begin() - 1;
+  if (fits(s[i], dq))
+    for (auto smaller = dq; i > 0 && fits(s[i - 1], smaller); --i)
+      dq = smaller;
+  else
+    while (i + 1 < s.size() && !fits(s[++i], dq))
+      ;
+  last_s = s[i];
+  if (const double largest = dq.linfty_norm(); largest > length)
     dq *= length / largest;
   return Coordinates(dq.begin(), dq.end());
+}
+
+template <int dim>
+double
+FreeBodies<dim>::longest_motion() const
+{
+  return turns_finitely ? 0.5 * cell_size : cell_size;
 }
 
 template <int dim>
@@ -231,16 +269,21 @@ FreeBodies<dim>::tolerance(const unsigned int i) const
 template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &history,
-                           const bool is_settling) const
+                           const double negligible, const bool is_settling) const
 {
-  const double length     = turns_finitely ? 0.5 * cell_size : cell_size;
+  const double length     = longest_motion();
   const bool   is_falling = is_settling || !turns_finitely;
   const double least      = is_falling ? smallest_damping : first_damping;
   double       damping    = first_damping;
   Balance      balance(*this, loads, history, is_falling);
   Coordinates  q(n_coordinates, 0.);
   balance.evaluate(q);
-  if (is_settling ? balance.is_balanced() : !balance.has_lost_contact())
+  const auto is_negligible = [&]() {
+    return std::inner_product(balance.forces.begin(), balance.forces.end(), balance.forces.begin(),
+                              0.)
+           <= negligible * negligible;
+  };
+  if (is_negligible() || (is_settling ? balance.is_balanced() : !balance.has_lost_contact()))
     return {};
   // Contact points stay where they are in a step: a moving geometry follows after a cell.
   const auto room = [&]() {
@@ -249,8 +292,9 @@ FreeBodies<dim>::balancing(const Coordinates &loads, const ContactHistory<dim> &
       moved = std::max(moved, std::abs(part));
     return turns_finitely ? length - moved : length;
   };
-  for (unsigned int iteration = 0;
-       iteration < max_iterations && !balance.is_balanced() && room() > 1e-3 * length; ++iteration)
+  for (unsigned int iteration = 0; iteration < max_iterations && !balance.is_balanced()
+                                   && !is_negligible() && room() > 1e-3 * length;
+       ++iteration)
     {
       const Coordinates dq    = balance.direction(room(), damping);
       const Coordinates start = q;
@@ -293,7 +337,7 @@ FreeBodies<dim>::work(const Coordinates &forces, const Coordinates &motion) cons
 
 #define SCREE_INSTANTIATE(dim)                                                                    \
   template std::vector<double> FreeBodies<dim>::balancing(                                        \
-    const std::vector<double> &, const ContactHistory<dim> &, const bool) const;                  \
+    const std::vector<double> &, const ContactHistory<dim> &, const double, const bool) const;    \
   template double FreeBodies<dim>::magnitude(const std::vector<double> &, const unsigned int)     \
     const;                                                                                        \
   template double FreeBodies<dim>::tolerance(const unsigned int) const;                           \

@@ -33,6 +33,12 @@ TEST(ContactPairs, AreWithinReachAndHaveALaw)
   parameters.laws = {none};
   EXPECT_TRUE(pairs_within(0.5, model.bodies, parameters).empty());
   EXPECT_FALSE(has_more_pairs_than(2, model.bodies, parameters));
+  EXPECT_TRUE(has_more_pairs_than(1, model.bodies, parameters));
+
+  none.bodies     = {"*", "c"};
+  parameters.laws = {none};
+  EXPECT_FALSE(has_more_pairs_than(1, model.bodies, parameters));
+  EXPECT_TRUE(has_more_pairs_than(0, model.bodies, parameters));
 }
 } // namespace
 } // namespace scree

@@ -47,5 +47,8 @@ struct ContactParameters
 
   /** The law of a pair; frictionless contact with default penalties if none matches. */
   ContactPairParameters law_of(const std::string &a, const std::string &b) const;
+
+  /** Which names of all laws a body fits: bodies of equal roles have equal laws with all others. */
+  std::vector<bool> roles_of(const std::string &body) const;
 };
 } // namespace scree

@@ -116,11 +116,12 @@ public:
    * it (moments to what misplaced_moments() may hold), or nothing better was found (collective).
    *
    * @param loads resultants f of all forces but those of contact
+   * @param negligible |F| that is round-off: nothing moves
    * @param is_settling on a moving geometry: s may become small, so that weakly resisted motions
    *                    go far. In a step they do not: gaps are linear in the motion there.
    */
   Coordinates balancing(const Coordinates &loads, const ContactHistory<dim> &history,
-                        const bool is_settling) const;
+                        const double negligible, const bool is_settling) const;
 
   /**
    * Adds a motion to the displacement (without ghosts). On a moving geometry deformable bodies turn
@@ -194,6 +195,8 @@ private:
   Coordinates rotations(const Coordinates &motion) const;
   /** Sums of the lengths of contact forces on the free bodies (collective). */
   std::vector<double> contact_on_bodies() const;
+  /** Of the coordinates in balancing(): in all on a moving geometry, else in an iteration. */
+  double longest_motion() const;
   /** Part of what acts on a free body that may be out of balance: contact acts at points. */
   double tolerance(const unsigned int free_body) const;
   /** What the coordinates of a free body do to its unknown j, from where u has brought it; null:
