@@ -30,7 +30,7 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   require_distinct(current.bodies, pairs);
   discretise(step_size);
   current.was_closed.assign(problem().contact().points().size(), false);
-  current.displacement = zero_displacement(problem().fields);
+  current.displacement = zero_displacement(problem().space);
   current.contact      = problem().contact().initial_history();
   if (is_moving())
     start_step();
@@ -152,7 +152,7 @@ Model<dim>::move_bodies(const Vector &ghosted)
   predictor.of_bodies.clear();
   predictor.of_rigid.resize(bodies.size());
   for (auto &motion :
-       move_level_sets(bodies, problem().fields, ghosted, start,
+       move_level_sets(bodies, problem().space, ghosted, start,
                        {margin, parameters.moving.motion, parameters.moving.slope_tolerance}))
     {
       const unsigned int b = predictor.of_bodies.size();
@@ -169,7 +169,7 @@ Model<dim>::move_bodies(const Vector &ghosted)
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (bodies[b].is_rigid())
       {
-        const auto q = rigid_unknowns(problem().fields, b, ghosted);
+        const auto q = rigid_unknowns(problem().space, b, ghosted);
         for (unsigned int m = 0; m < q.size(); ++m)
           predictor.of_rigid[b][m] = q[m] - bodies[b].pose.unknowns()[m];
         place_rigid_body(bodies[b], q, lattice_frame(), margin);
@@ -185,7 +185,7 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
   current.step_end
     = {remember(problem().contact(), communicator), {}, problem().equilibrium().driving_forces()};
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(current.bodies); ++i)
-    current.step_end.multipliers.push_back(ghosted(problem().fields.multiplier(i)));
+    current.step_end.multipliers.push_back(ghosted(problem().space.multiplier(i)));
   MotionRecord<dim> record;
   record.transfer_report = problem().kinematics->transfer_report();
   record.n_islands       = move_bodies(ghosted);
@@ -210,18 +210,18 @@ template <int dim>
 void
 Model<dim>::start_step()
 {
-  const Fields<dim> &fields = problem().fields;
-  const auto        &bodies = current.bodies;
-  current.displacement      = zero_displacement(fields);
+  const DisplacementSpace<dim> &space  = problem().space;
+  const auto                   &bodies = current.bodies;
+  current.displacement                 = zero_displacement(space);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (bodies[b].is_rigid())
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          current.displacement(fields.rigid_unknown(b) + m) = bodies[b].pose.unknowns()[m];
+        if (space.owned().is_element(space.rigid_unknown(b) + m))
+          current.displacement(space.rigid_unknown(b) + m) = bodies[b].pose.unknowns()[m];
   const StepEnd<dim> &end = current.step_end;
   for (unsigned int i = 0; i < end.multipliers.size(); ++i)
-    if (fields.owned().is_element(fields.multiplier(i)))
-      current.displacement(fields.multiplier(i)) = end.multipliers[i];
+    if (space.owned().is_element(space.multiplier(i)))
+      current.displacement(space.multiplier(i)) = end.multipliers[i];
   current.displacement.compress(dealii::VectorOperation::insert);
   current.contact = recall(problem().contact(), end.contact);
   keep_resultants(problem().contact(), end.contact, current.contact, communicator);
@@ -243,7 +243,7 @@ template <int dim>
 GatheredState<dim>
 Model<dim>::gathered() const
 {
-  return gather(current, problem().fields, problem().contact(), is_moving());
+  return gather(current, problem().space, problem().contact(), is_moving());
 }
 
 template <int dim>
@@ -254,7 +254,7 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
   current.time = time;
   if (!is_moving())
     {
-      restore_fixed(saved, problem().fields, problem().contact(), directory, current);
+      restore_fixed(saved, problem().space, problem().contact(), directory, current);
       problem().equilibrium().resume(time, current.displacement, current.contact, current.energies);
       return;
     }

@@ -130,7 +130,7 @@ RefinementStudy<dim>::run()
       const DiscreteProblem<dim> &problem = simulation->get_model().problem();
       Cycle                       cycle;
       cycle.n_cells     = problem.grid.triangulation().n_global_active_cells();
-      cycle.n_unknowns  = problem.fields.n_dofs();
+      cycle.n_unknowns  = problem.space.n_dofs();
       cycle.finest_edge = problem.grid.finest_size();
       cycle.seconds
         = dealii::Utilities::MPI::sum(double(std::clock() - start) / CLOCKS_PER_SEC, communicator);

@@ -26,7 +26,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
             [this]() { return collect(); })
 {
   const DiscreteProblem<dim> &problem = model.problem();
-  results.set_discretization(problem.fields, problem.level_set_nodes);
+  results.set_discretization(problem.space, problem.level_set_nodes);
   results.require_distinct_columns(problem.equilibrium(), problem.contact());
   // Probes outside their bodies are told before anything is computed.
   results.require_probes(*problem.kinematics,
@@ -89,7 +89,7 @@ Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
   if (model.is_moving())
     {
       const auto motion = model.move_geometry(std::move(attempt.points), step_control.step_size());
-      results.set_discretization(model.problem().fields, model.problem().level_set_nodes);
+      results.set_discretization(model.problem().space, model.problem().level_set_nodes);
       results.gather_motion(motion);
     }
   results.write_history();
@@ -145,7 +145,7 @@ Simulation<dim>::write_results(const StepRecord &record)
   const auto                  is_due
     = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
   if (model.is_moving()) // Closing contact may have moved it.
-    results.set_discretization(problem.fields, problem.level_set_nodes);
+    results.set_discretization(problem.space, problem.level_set_nodes);
   results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature, u);
   results.write_probes(record, *problem.kinematics, ghosted);
   bool is_written = true;
@@ -261,7 +261,7 @@ Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
   stepper.set_second_attempt(checkpoint.is_second_attempt);
   model.restore(checkpoint.state, time, step_control.step_size(), directory);
   const DiscreteProblem<dim> &problem = model.problem();
-  results.set_discretization(problem.fields, problem.level_set_nodes);
+  results.set_discretization(problem.space, problem.level_set_nodes);
   results.resume(checkpoint.results, problem.equilibrium(), problem.contact());
   if (!checkpoint.warning.empty())
     run_log.log.line("Warning: " + checkpoint.warning);

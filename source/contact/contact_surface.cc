@@ -180,18 +180,18 @@ cells_of_pairs(const BackgroundGrid<dim> &grid, const std::vector<Body<dim>> &bo
 
 template <int dim>
 std::vector<ContactPoint<dim>>
-contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+contact_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                 const double shift, const ExactDistances<dim> &distances, const bool nodal_normals)
 {
-  const BackgroundGrid<dim>     &grid = fields.grid;
-  KinkedSurface<dim>             kinked(distances, bodies, fields.basis);
+  const BackgroundGrid<dim>     &grid = space.grid;
+  KinkedSurface<dim>             kinked(distances, bodies, space.basis);
   std::vector<ContactPoint<dim>> points;
   const auto                     of_pairs = cells_of_pairs(grid, bodies, pairs, shift);
   for (auto entry = of_pairs.begin(); entry != of_pairs.end();)
     {
       const unsigned int  p = entry->first;
-      PairSurface<dim>    surface(fields.basis, level_set_nodes, bodies, pairs[p], distances,
+      PairSurface<dim>    surface(space.basis, level_set_nodes, bodies, pairs[p], distances,
                                   nodal_normals);
       const LeastGap<dim> least_gap(distances, bodies, pairs[p]);
       for (; entry != of_pairs.end() && entry->first == p; ++entry)
@@ -210,9 +210,9 @@ contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_n
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                       \
-  template std::vector<ContactPoint<dim>> contact_surface(                           \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template std::vector<ContactPoint<dim>> contact_surface(                                      \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
     const std::vector<ContactPair> &, const double, const ExactDistances<dim> &, const bool);
 
 SCREE_INSTANTIATE(2)

@@ -5,7 +5,8 @@
 namespace scree
 {
 template <int dim>
-JumpOperator<dim>::JumpOperator(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+JumpOperator<dim>::JumpOperator(const DisplacementSpace<dim>   &space,
+                                const std::vector<Body<dim>>   &bodies,
                                 const std::vector<ContactPair> &pairs)
     : rigid_sides(pairs.size())
 {
@@ -19,7 +20,7 @@ JumpOperator<dim>::JumpOperator(const Fields<dim> &fields, const std::vector<Bod
         if (partner_of_body.emplace(b, rigid_partners.size()).second)
           {
             rigid_partners.push_back(
-              {b, body.rigid, fields.rigid_unknown(b), {}, body.pose, body.pose});
+              {b, body.rigid, space.rigid_unknown(b), {}, body.pose, body.pose});
             for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
               if (body.rigid->is_free(m))
                 rigid_partners.back().free_components.push_back(m);

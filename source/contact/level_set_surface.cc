@@ -41,13 +41,13 @@ template <int dim>
 class Feet
 {
 public:
-  Feet(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  Feet(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
        const std::vector<ContactPair> &pairs, const ExactDistances<dim> &distances)
       : bodies(bodies)
       , pairs(pairs)
       , distances(distances)
-      , box(fields.grid.box())
-      , degree(fields.basis.degree)
+      , box(space.grid.box())
+      , degree(space.basis.degree)
   {
   }
 
@@ -118,12 +118,12 @@ class Stencils
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  Stencils(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  Stencils(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
            const std::vector<ContactPair> &pairs, const std::vector<ContactPoint<dim>> &points,
            const Vector *start_displacement, const Vector *secant_ratios)
       : bodies(bodies)
       , pairs(pairs)
-      , stencils(at(fields, points))
+      , stencils(at(space, points))
       , has_start(start_displacement != nullptr)
       , has_ratios(secant_ratios != nullptr)
       , u_n(values_at(stencils, start_displacement, dim))
@@ -135,7 +135,7 @@ public:
   PointStencil<dim> next(const ContactPoint<dim> &point);
 
 private:
-  std::vector<NodeStencil> at(const Fields<dim>                    &fields,
+  std::vector<NodeStencil> at(const DisplacementSpace<dim>         &space,
                               const std::vector<ContactPoint<dim>> &points) const;
   /** The deformable body on a side; null if it is rigid. */
   const Body<dim> *deformable(const ContactPoint<dim> &point, const unsigned int side) const
@@ -154,7 +154,8 @@ private:
 
 template <int dim>
 std::vector<NodeStencil>
-Stencils<dim>::at(const Fields<dim> &fields, const std::vector<ContactPoint<dim>> &points) const
+Stencils<dim>::at(const DisplacementSpace<dim>         &space,
+                  const std::vector<ContactPoint<dim>> &points) const
 {
   std::vector<unsigned int>       of_bodies;
   std::vector<dealii::Point<dim>> places;
@@ -165,7 +166,7 @@ Stencils<dim>::at(const Fields<dim> &fields, const std::vector<ContactPoint<dim>
           of_bodies.push_back(body - bodies.data());
           places.push_back(point.feet[side]);
         }
-  return fields.stencils(of_bodies, places);
+  return space.stencils(of_bodies, places);
 }
 
 template <int dim>
@@ -201,23 +202,23 @@ Stencils<dim>::next(const ContactPoint<dim> &point)
 
 template <int dim>
 ContactDiscretisation<dim>
-level_set_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                   const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                   const double shift, const IncrementPrediction<dim> &prediction,
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
                   const dealii::TrilinosWrappers::MPI::Vector *secant_ratios)
 {
-  const ExactDistances<dim>      distances(bodies, fields.grid.finest_size());
-  const InitialGaps<dim>         initial_gaps(bodies, pairs, 2. * shift, fields.basis.degree);
-  const bool                     moves  = std::any_of(bodies.begin(), bodies.end(),
-                                                      [](const Body<dim> &body) { return body.law != nullptr; });
-  std::vector<ContactPoint<dim>> points = contact_surface(fields, level_set_nodes, bodies, pairs,
-                                                          shift, distances, moves || prediction);
-  const Feet<dim>                feet(fields, bodies, pairs, distances);
+  const ExactDistances<dim>      distances(bodies, space.grid.finest_size());
+  const InitialGaps<dim>         initial_gaps(bodies, pairs, 2. * shift, space.basis.degree);
+  const bool                     moves = std::any_of(bodies.begin(), bodies.end(),
+                                                     [](const Body<dim> &body) { return body.law != nullptr; });
+  std::vector<ContactPoint<dim>> points
+    = contact_surface(space, level_set_nodes, bodies, pairs, shift, distances, moves || prediction);
+  const Feet<dim> feet(space, bodies, pairs, distances);
   for (ContactPoint<dim> &point : points)
     feet.find(prediction, point);
-  Stencils<dim> stencils(fields, bodies, pairs, points, start_displacement, secant_ratios);
-  ContactDiscretisation<dim> result{{}, JumpOperator<dim>(fields, bodies, pairs)};
+  Stencils<dim> stencils(space, bodies, pairs, points, start_displacement, secant_ratios);
+  ContactDiscretisation<dim> result{{}, JumpOperator<dim>(space, bodies, pairs)};
   for (ContactPoint<dim> &point : points)
     {
       PointStencil<dim> stencil = stencils.next(point);
@@ -239,10 +240,10 @@ level_set_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                        \
-  template ContactDiscretisation<dim> level_set_surface(                              \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,  \
-    const std::vector<ContactPair> &, const double, const IncrementPrediction<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template ContactDiscretisation<dim> level_set_surface(                                        \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
+    const std::vector<ContactPair> &, const double, const IncrementPrediction<dim> &,           \
     const dealii::TrilinosWrappers::MPI::Vector *, const dealii::TrilinosWrappers::MPI::Vector *);
 
 SCREE_INSTANTIATE(2)

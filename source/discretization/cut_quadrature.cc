@@ -190,25 +190,25 @@ distance_to_contour(const Body<dim> &body, const GridCell<dim> &cell,
 } // namespace
 
 template <int dim>
-CutQuadrature<dim>::CutQuadrature(const Fields<dim>            &fields,
+CutQuadrature<dim>::CutQuadrature(const DisplacementSpace<dim> &space,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const std::vector<Body<dim>> &bodies)
 {
-  const dealii::QGauss<dim> gauss(fields.basis.degree + 1);
+  const dealii::QGauss<dim> gauss(space.basis.degree + 1);
   whole_cell.points  = gauss.get_points();
   whole_cell.weights = gauss.get_weights();
 
-  CutCellRules<dim> rules(fields.basis);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  CutCellRules<dim> rules(space.basis);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       if (!cell.is_cut)
         {
           bulk.append({});
           surface.append({});
           continue;
         }
-      const auto &geometry = fields.grid.cells()[cell.grid_cell];
+      const auto &geometry = space.grid.cells()[cell.grid_cell];
       const auto  cut      = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
       const auto  points   = rules.rules(cut, geometry.size);
       bulk.append(points.inside);

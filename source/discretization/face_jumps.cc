@@ -8,21 +8,21 @@
 namespace scree
 {
 template <int dim>
-FaceJumps<dim>::FaceJumps(const Fields<dim> &fields)
-    : fields(fields)
+FaceJumps<dim>::FaceJumps(const DisplacementSpace<dim> &space)
+    : space(space)
 {
-  const auto &grid = fields.grid;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  const auto &grid = space.grid;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &active   = fields.cells()[a];
+      const ActiveCell &active   = space.cells()[a];
       const auto       &iterator = grid.cells()[active.grid_cell].iterator;
       for (const unsigned int f : iterator->face_indices())
         {
           if (iterator->at_boundary(f) || iterator->neighbor(f)->has_children())
             continue; // finer neighbours integrate the face themselves
           const auto other    = iterator->neighbor(f);
-          const int  neighbor = fields.active_cell(grid.local_index(*other), active.body);
-          if (neighbor < 0 || !(active.is_cut || fields.cells()[neighbor].is_cut))
+          const int  neighbor = space.active_cell(grid.local_index(*other), active.body);
+          if (neighbor < 0 || !(active.is_cut || space.cells()[neighbor].is_cut))
             continue;
           if (!iterator->neighbor_is_coarser(f))
             {
@@ -42,8 +42,8 @@ template <int dim>
 dealii::FullMatrix<double>
 FaceJumps<dim>::matrix(const GhostFace &face) const
 {
-  const auto &cell     = fields.grid.cells()[fields.cells()[face.cell].grid_cell];
-  const auto &neighbor = fields.grid.cells()[fields.cells()[face.neighbor].grid_cell];
+  const auto &cell     = space.grid.cells()[space.cells()[face.cell].grid_cell];
+  const auto &neighbor = space.grid.cells()[space.cells()[face.neighbor].grid_cell];
   // Position of the cell in units of its edge, relative to the neighbour.
   const dealii::Tensor<1, dim> offset = (cell.lower - neighbor.lower) / cell.size;
   const double                 ratio  = neighbor.size / cell.size;
@@ -65,13 +65,13 @@ template <int dim>
 typename FaceJumps<dim>::Block
 FaceJumps<dim>::block(const GhostFace &face) const
 {
-  const unsigned int        n     = fields.basis.n_nodes;
+  const unsigned int        n     = space.basis.n_nodes;
   const auto                jumps = matrix(face);
-  Block                     result{{fields.nodes(face.cell), fields.nodes(face.cell) + n}, {}};
+  Block                     result{{space.nodes(face.cell), space.nodes(face.cell) + n}, {}};
   std::vector<unsigned int> position(2 * n);
   for (unsigned int i = 0; i < 2 * n; ++i)
     {
-      const DofIndex node = i < n ? fields.nodes(face.cell)[i] : fields.nodes(face.neighbor)[i - n];
+      const DofIndex node  = i < n ? space.nodes(face.cell)[i] : space.nodes(face.neighbor)[i - n];
       const auto     found = std::find(result.nodes.begin(), result.nodes.end(), node);
       position[i]          = found - result.nodes.begin();
       if (found == result.nodes.end())
@@ -89,7 +89,7 @@ dealii::FullMatrix<double>
 FaceJumps<dim>::unit_matrix(const unsigned int face, const dealii::Tensor<1, dim> &offset,
                             const double ratio) const
 {
-  const auto                      &basis     = fields.basis;
+  const auto                      &basis     = space.basis;
   const unsigned int               direction = face / 2;
   const unsigned int               n         = basis.n_nodes;
   const dealii::QGauss<dim - 1>    gauss(basis.degree + 1);

@@ -5,10 +5,10 @@
 namespace scree
 {
 template <int dim>
-GhostPenalty<dim>::GhostPenalty(const Fields<dim> &fields, const double factor)
-    : fields(fields)
+GhostPenalty<dim>::GhostPenalty(const DisplacementSpace<dim> &space, const double factor)
+    : space(space)
     , gamma(factor)
-    , jumps(fields)
+    , jumps(space)
 {
 }
 
@@ -16,7 +16,7 @@ template <int dim>
 double
 GhostPenalty<dim>::factor_of(const GhostFace &face, const CutStiffness &stiffness) const
 {
-  return gamma * stiffness.of_bodies[fields.cells()[face.cell].body]
+  return gamma * stiffness.of_bodies[space.cells()[face.cell].body]
          * std::min(stiffness.ratios[face.cell], stiffness.ratios[face.neighbor]);
 }
 
@@ -24,12 +24,12 @@ template <int dim>
 std::vector<std::vector<DofIndex>>
 GhostPenalty<dim>::couplings() const
 {
-  const unsigned int                 n = fields.basis.n_nodes;
+  const unsigned int                 n = space.basis.n_nodes;
   std::vector<std::vector<DofIndex>> result;
   for (const GhostFace &face : jumps.faces())
     {
-      std::vector<DofIndex> nodes(fields.nodes(face.cell), fields.nodes(face.cell) + n);
-      nodes.insert(nodes.end(), fields.nodes(face.neighbor), fields.nodes(face.neighbor) + n);
+      std::vector<DofIndex> nodes(space.nodes(face.cell), space.nodes(face.cell) + n);
+      nodes.insert(nodes.end(), space.nodes(face.neighbor), space.nodes(face.neighbor) + n);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       result.push_back(nodes);
@@ -51,7 +51,7 @@ GhostPenalty<dim>::add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) 
         for (unsigned int j = 0; j < of_face.nodes.size(); ++j)
           for (unsigned int d = 0; d < dim; ++d)
             block(i * dim + d, j * dim + d) = factor * of_face.matrix(i, j);
-      fields.hanging_constraints().distribute_local_to_global(
+      space.hanging_constraints().distribute_local_to_global(
         block, unknowns_of_nodes<dim>(of_face.nodes.data(), of_face.nodes.size()), matrix);
     }
 }
@@ -60,7 +60,7 @@ template <int dim>
 double
 GhostPenalty<dim>::energy(const CutStiffness &stiffness, const PointEvaluator<dim> &u) const
 {
-  const unsigned int     n      = fields.basis.n_nodes;
+  const unsigned int     n      = space.basis.n_nodes;
   double                 energy = 0.;
   dealii::Vector<double> nodal(2 * n);
   for (const GhostFace &face : jumps.faces())

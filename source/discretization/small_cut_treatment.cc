@@ -24,17 +24,17 @@ NoSmallCutTreatment<dim>::energy(const CutStiffness &, const PointEvaluator<dim>
 
 template <int dim>
 std::unique_ptr<const SmallCutTreatment<dim>>
-make_small_cut_treatment(const Fields<dim> &fields, const double ghost_penalty_factor)
+make_small_cut_treatment(const DisplacementSpace<dim> &space, const double ghost_penalty_factor)
 {
   if (ghost_penalty_factor == 0.)
     return std::make_unique<NoSmallCutTreatment<dim>>();
-  return std::make_unique<GhostPenalty<dim>>(fields, ghost_penalty_factor);
+  return std::make_unique<GhostPenalty<dim>>(space, ghost_penalty_factor);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                     \
   template class NoSmallCutTreatment<dim>;                                         \
   template std::unique_ptr<const SmallCutTreatment<dim>> make_small_cut_treatment( \
-    const Fields<dim> &, const double);
+    const DisplacementSpace<dim> &, const double);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -64,25 +64,25 @@ rotation_of(const NodeSums<dim> &sums)
 /** Of the nodes of each body on this process, with the forces at them. */
 template <int dim>
 std::vector<NodeSums<dim>>
-node_sums(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies, const Vector &u,
-          const Vector &contact_forces, const Vector &body_forces)
+node_sums(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+          const Vector &u, const Vector &contact_forces, const Vector &body_forces)
 {
   std::vector<NodeSums<dim>> sums(bodies.size());
-  std::vector<bool>          is_known(fields.owned().n_elements(), false);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  std::vector<bool>          is_known(space.owned().n_elements(), false);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       NodeSums<dim>    &sum  = sums[cell.body];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
-          const DofIndex node = fields.nodes(a)[i];
-          if (!fields.owned().is_element(node) || fields.hanging_constraints().is_constrained(node))
+          const DofIndex node = space.nodes(a)[i];
+          if (!space.owned().is_element(node) || space.hanging_constraints().is_constrained(node))
             continue;
-          const auto place = fields.owned().index_within_set(node);
+          const auto place = space.owned().index_within_set(node);
           if (is_known[place])
             continue;
           is_known[place]                       = true;
-          const dealii::Point<dim>     position = fields.position(a, fields.basis.node(i));
+          const dealii::Point<dim>     position = space.position(a, space.basis.node(i));
           const dealii::Tensor<1, dim> x        = position - bodies[cell.body].box.center();
           dealii::Tensor<1, dim>       displacement, contact_force, body_force;
           for (unsigned int d = 0; d < dim; ++d)
@@ -133,7 +133,7 @@ Equilibrium<dim>::balance(const Vector &u) const
   body_forces.compress(dealii::VectorOperation::add);
   reactions(held);
 
-  auto sums = node_sums(fields, bodies, u, contact_forces, body_forces);
+  auto sums = node_sums(space, bodies, u, contact_forces, body_forces);
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
     {
       const auto &region    = boundary_terms.regions()[r];
@@ -143,7 +143,7 @@ Equilibrium<dim>::balance(const Vector &u) const
     }
   for (const auto &unknown : supports.unknowns())
     sums[supports.conditions()[unknown.support].first].scale += std::abs(held(unknown.index));
-  sum_over_processes(sums, fields.grid.communicator());
+  sum_over_processes(sums, space.grid.communicator());
 
   const auto add = [&](const unsigned int body, const Resultant<dim> &resultant) {
     sums[body].force += resultant.force;

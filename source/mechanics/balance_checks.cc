@@ -89,7 +89,7 @@ find_rigid_rotations(const DiscreteProblem<dim>              &problem,
   const auto &contact = problem.contact();
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (bodies[b].is_rigid())
-      angle[b] = RigidPose<dim>(*bodies[b].rigid, rigid_unknowns(problem.fields, b, ghosted))
+      angle[b] = RigidPose<dim>(*bodies[b].rigid, rigid_unknowns(problem.space, b, ghosted))
                    .rotation()
                    .norm();
   for (unsigned int i = 0; i < contact.points().size(); ++i)

@@ -9,13 +9,13 @@ namespace
 /** Adds the points of a region in a cell of its body. */
 template <int dim>
 void
-add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+add_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
            const CutQuadrature<dim> &quadrature, const Body<dim> &body,
            const Kinematics<dim> &kinematics, const unsigned int a, CutCellRules<dim> &rules,
            BoundaryRegion<dim> &region)
 {
-  const ActiveCell  &cell     = fields.cells()[a];
-  const auto        &geometry = fields.grid.cells()[cell.grid_cell];
+  const ActiveCell  &cell     = space.cells()[a];
+  const auto        &geometry = space.grid.cells()[cell.grid_cell];
   const unsigned int face     = region.condition->box_face;
   const bool         on_face  = face != BoundaryCondition<dim>::no_face;
   if (on_face ? !geometry.iterator->at_boundary(face) : !cell.is_cut)
@@ -41,14 +41,14 @@ add_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
   else
     {
       const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
-      points = is_load ? load_rule<dim>(rules, fields.basis, geometry, shape, cut, face, selects)
+      points = is_load ? load_rule<dim>(rules, space.basis, geometry, shape, cut, face, selects)
                        : rules.face_rule(cut, geometry.size, face);
       if (is_load && on_face)
-        points.append(strip_on_face(*shape, fields.basis, geometry, cut, face));
+        points.append(strip_on_face(*shape, space.basis, geometry, cut, face));
     }
   for (unsigned int q = 0; q < points.points.size(); ++q)
     {
-      const dealii::Point<dim> position = fields.position(a, points.points[q]);
+      const dealii::Point<dim> position = space.position(a, points.points[q]);
       BoundaryPoint<dim>       point
         = {a, points.points[q], position, points.normals[q], points.weights[q], position, {}, 1.};
       if (is_load && !on_face)
@@ -102,7 +102,8 @@ squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point)
 
 template <int dim>
 std::vector<BoundaryRegion<dim>>
-find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+find_boundary_regions(const DisplacementSpace<dim> &space,
+                      const LevelSetNodes<dim>     &level_set_nodes,
                       const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
                       const Kinematics<dim> &kinematics)
 {
@@ -119,15 +120,14 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
           {b, &condition, {}, 0., {}, 0., next_multiplier, kinematics.follows_surface(condition)});
         next_multiplier += condition.n_multipliers();
       }
-  CutCellRules<dim> rules(fields.basis);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  CutCellRules<dim> rules(space.basis);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const unsigned int b = fields.cells()[a].body;
+      const unsigned int b = space.cells()[a].body;
       for (const unsigned int r : regions_of_body[b])
-        add_points(fields, level_set_nodes, quadrature, bodies[b], kinematics, a, rules,
-                   regions[r]);
+        add_points(space, level_set_nodes, quadrature, bodies[b], kinematics, a, rules, regions[r]);
     }
-  measure(fields.grid.communicator(), regions);
+  measure(space.grid.communicator(), regions);
   for (const auto &region : regions)
     require(region.area > 0., region.condition->path,
             "the region selects nothing of the body '" + bodies[region.body].name + "'",
@@ -135,10 +135,10 @@ find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level
   return regions;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                          \
-  template double squared_arm(const BoundaryRegion<dim> &, const BoundaryPoint<dim> &); \
-  template std::vector<BoundaryRegion<dim>> find_boundary_regions(                      \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &,        \
+#define SCREE_INSTANTIATE(dim)                                                              \
+  template double squared_arm(const BoundaryRegion<dim> &, const BoundaryPoint<dim> &);     \
+  template std::vector<BoundaryRegion<dim>> find_boundary_regions(                          \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const CutQuadrature<dim> &, \
     const std::vector<Body<dim>> &, const Kinematics<dim> &);
 
 SCREE_INSTANTIATE(2)

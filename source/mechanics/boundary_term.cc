@@ -7,7 +7,7 @@ template <int dim>
 BoundaryTerm<dim>::BoundaryTerm(const BoundarySetting<dim>      &setting,
                                 const std::vector<unsigned int> &own_regions)
     : setting(setting)
-    , fields(setting.fields)
+    , space(setting.space)
     , own_regions(own_regions)
 {
 }
@@ -71,7 +71,7 @@ template <int dim>
 std::vector<DofIndex>
 BoundaryTerm<dim>::unknowns(const BoundaryPoint<dim> &point) const
 {
-  return unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes);
+  return unknowns_of_nodes<dim>(space.nodes(point.active_cell), space.basis.n_nodes);
 }
 
 template <int dim>
@@ -79,7 +79,7 @@ void
 BoundaryTerm<dim>::set_unknowns(const BoundaryPoint<dim> &point,
                                 std::vector<DofIndex>    &unknowns) const
 {
-  set_unknowns_of_nodes<dim>(fields.nodes(point.active_cell), fields.basis.n_nodes, unknowns);
+  set_unknowns_of_nodes<dim>(space.nodes(point.active_cell), space.basis.n_nodes, unknowns);
 }
 
 template <int dim>
@@ -88,7 +88,7 @@ BoundaryTerm<dim>::set_tangent(const BoundaryPoint<dim> &point, const ShapeValue
                                const dealii::Tensor<3, dim> &by_increment,
                                dealii::FullMatrix<double>   &block) const
 {
-  const unsigned int n = fields.basis.n_nodes;
+  const unsigned int n = space.basis.n_nodes;
   for (unsigned int b = 0; b < n; ++b)
     for (unsigned int i = 0; i < dim; ++i)
       {

@@ -20,17 +20,17 @@ BoundaryTerms<dim>::n_multipliers(const std::vector<Body<dim>> &bodies)
 }
 
 template <int dim>
-BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
+BoundaryTerms<dim>::BoundaryTerms(const DisplacementSpace<dim> &space,
                                   const LevelSetNodes<dim>     &level_set_nodes,
                                   const CutQuadrature<dim>     &quadrature,
                                   const std::vector<Body<dim>> &bodies,
                                   const Kinematics<dim>        &kinematics)
-    : fields(fields)
+    : space(space)
     , bodies(bodies)
     , boundary_regions(
-        find_boundary_regions(fields, level_set_nodes, quadrature, bodies, kinematics))
+        find_boundary_regions(space, level_set_nodes, quadrature, bodies, kinematics))
 {
-  release_edges(fields, level_set_nodes, bodies, kinematics, boundary_regions);
+  release_edges(space, level_set_nodes, bodies, kinematics, boundary_regions);
   forgive_flow(kinematics, boundary_regions);
   std::map<Imposition, std::vector<unsigned int>> regions_of_terms;
   for (unsigned int r = 0; r < boundary_regions.size(); ++r)
@@ -39,7 +39,7 @@ BoundaryTerms<dim>::BoundaryTerms(const Fields<dim>            &fields,
   for (const auto &[imposition, own_regions] : regions_of_terms)
     {
       terms.push_back(make_boundary_term<dim>(
-        imposition, {fields, bodies, kinematics, boundary_regions}, own_regions));
+        imposition, {space, bodies, kinematics, boundary_regions}, own_regions));
       for (const unsigned int r : own_regions)
         term_of_region[r] = terms.back().get();
     }
@@ -148,7 +148,7 @@ BoundaryTerms<dim>::resultants(const PointEvaluator<dim> &u, const double time) 
         }
       result.push_back(sum);
     }
-  sum_over_processes(result, fields.grid.communicator());
+  sum_over_processes(result, space.grid.communicator());
   return result;
 }
 
@@ -159,7 +159,7 @@ BoundaryTerms<dim>::energy(const PointEvaluator<dim> &u, const double time) cons
   double sum = 0.;
   for (const auto &term : terms)
     sum += term->energy(u, time);
-  return dealii::Utilities::MPI::sum(sum, fields.grid.communicator());
+  return dealii::Utilities::MPI::sum(sum, space.grid.communicator());
 }
 
 template class BoundaryTerms<2>;

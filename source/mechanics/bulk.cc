@@ -26,15 +26,15 @@ positive(const std::vector<double> &shares)
 } // namespace
 
 template <int dim>
-Bulk<dim>::Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+Bulk<dim>::Bulk(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                 const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
                 const std::vector<double> &projected_shares)
-    : fields(fields)
+    : space(space)
     , quadrature(quadrature)
     , bodies(bodies)
     , projected_shares(projected_shares)
-    , divergence(fields, quadrature, positive(projected_shares))
-    , secant_ratios(fields.cells().size(), 1.)
+    , divergence(space, quadrature, positive(projected_shares))
+    , secant_ratios(space.cells().size(), 1.)
     , small_cuts(small_cuts)
 {
 }
@@ -43,7 +43,7 @@ template <int dim>
 CellRule<dim>
 Bulk<dim>::rule(const unsigned int active_cell) const
 {
-  return cut_cell_rule(fields, quadrature, active_cell);
+  return cut_cell_rule(space, quadrature, active_cell);
 }
 
 template <int dim>
@@ -80,9 +80,9 @@ dealii::Tensor<1, dim>
 Bulk<dim>::body_force(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                       const double time) const
 {
-  const auto                  &body     = bodies[fields.cells()[active_cell].body];
+  const auto                  &body     = bodies[space.cells()[active_cell].body];
   const auto                  &force    = body.body_force;
-  const dealii::Point<dim>     position = fields.position(active_cell, unit_point);
+  const dealii::Point<dim>     position = space.position(active_cell, unit_point);
   const dealii::Tensor<1, dim> b        = force.vector(position, time);
   if (!std::isfinite(b.norm_square()))
     {
@@ -99,22 +99,22 @@ template <int dim>
 void
 Bulk<dim>::add_body_forces(Vector &loads, const double time) const
 {
-  const unsigned int     n = fields.basis.n_nodes;
+  const unsigned int     n = space.basis.n_nodes;
   std::vector<double>    shape(n), reference_volumes;
   dealii::Vector<double> cell_load(n * dim);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
         continue;
       const CellRule<dim> points = rule(a);
-      const double        size   = fields.cell_size(a);
+      const double        size   = space.cell_size(a);
       set_reference_volumes(a, reference_volumes);
       double volume = 0., reference_volume = 0.;
       cell_load      = 0.;
       const auto add = [&](const dealii::Point<dim> &unit_point, const double weight) {
         const dealii::Tensor<1, dim> b = weight * body_force(a, unit_point, time);
-        fields.basis.evaluate_values(unit_point, shape.data());
+        space.basis.evaluate_values(unit_point, shape.data());
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int d = 0; d < dim; ++d)
             cell_load(i * dim + d) += shape[i] * b[d];
@@ -131,8 +131,8 @@ Bulk<dim>::add_body_forces(Vector &loads, const double time) const
         if (const double width = quadrature.strip_widths[q]; width != 0.)
           add(surface.points[q] + 0.5 * width / size * surface.normals[q],
               width * surface.weights[q] * reference_volume / volume);
-      fields.hanging_constraints().distribute_local_to_global(
-        cell_load, unknowns_of_nodes<dim>(fields.nodes(a), n), loads);
+      space.hanging_constraints().distribute_local_to_global(
+        cell_load, unknowns_of_nodes<dim>(space.nodes(a), n), loads);
     }
 }
 
@@ -141,8 +141,8 @@ std::vector<std::vector<DofIndex>>
 Bulk<dim>::couplings() const
 {
   std::vector<std::vector<DofIndex>> result;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    result.emplace_back(fields.nodes(a), fields.nodes(a) + fields.basis.n_nodes);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    result.emplace_back(space.nodes(a), space.nodes(a) + space.basis.n_nodes);
   for (const auto &nodes : small_cuts.couplings())
     result.push_back(nodes);
   return result;
@@ -169,7 +169,7 @@ double
 Bulk<dim>::energy_of_small_cuts(const PointEvaluator<dim> &u) const
 {
   return dealii::Utilities::MPI::sum(small_cuts.energy(cut_stiffness(), u),
-                                     fields.grid.communicator());
+                                     space.grid.communicator());
 }
 
 template <int dim>
@@ -177,13 +177,13 @@ std::vector<double>
 Bulk<dim>::volumes() const
 {
   std::vector<double> volume(bodies.size(), 0.);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> points = Bulk<dim>::rule(a);
       for (unsigned int q = 0; q < points.n_points; ++q)
-        volume[fields.cells()[a].body] += points.weights[q] * points.weight_scale;
+        volume[space.cells()[a].body] += points.weights[q] * points.weight_scale;
     }
-  dealii::Utilities::MPI::sum(volume, fields.grid.communicator(), volume);
+  dealii::Utilities::MPI::sum(volume, space.grid.communicator(), volume);
   return volume;
 }
 
@@ -191,11 +191,11 @@ template <int dim>
 void
 Bulk<dim>::add_lumped_volumes(Vector &volumes, const std::vector<double> &factor_of_body) const
 {
-  const unsigned int     n = fields.basis.n_nodes;
+  const unsigned int     n = space.basis.n_nodes;
   dealii::Vector<double> lumped(n * dim);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const double factor = factor_of_body[fields.cells()[a].body];
+      const double factor = factor_of_body[space.cells()[a].body];
       if (factor == 0.)
         continue;
       // Equal shares: those of the basis functions are not all positive for degree 2.
@@ -204,8 +204,8 @@ Bulk<dim>::add_lumped_volumes(Vector &volumes, const std::vector<double> &factor
       for (unsigned int q = 0; q < points.n_points; ++q)
         volume += points.weights[q] * points.weight_scale;
       lumped = factor * volume / n;
-      fields.hanging_constraints().distribute_local_to_global(
-        lumped, unknowns_of_nodes<dim>(fields.nodes(a), n), volumes);
+      space.hanging_constraints().distribute_local_to_global(
+        lumped, unknowns_of_nodes<dim>(space.nodes(a), n), volumes);
     }
 }
 
@@ -223,12 +223,12 @@ template <int dim>
 typename Bulk<dim>::Vector
 Bulk<dim>::nodal_secant_ratios() const
 {
-  Vector smallest(fields.owned(), fields.grid.communicator());
-  for (const DofIndex i : fields.owned())
+  Vector smallest(space.owned(), space.grid.communicator());
+  for (const DofIndex i : space.owned())
     smallest(i) = 1.;
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-      if (const DofIndex node = fields.nodes(a)[i]; fields.owned().is_element(node))
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      if (const DofIndex node = space.nodes(a)[i]; space.owned().is_element(node))
         smallest(node) = std::min<double>(smallest(node), secant_ratios[a]);
   smallest.compress(dealii::VectorOperation::insert);
   return smallest;

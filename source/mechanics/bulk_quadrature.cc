@@ -5,8 +5,9 @@
 namespace scree
 {
 template <int dim>
-BulkQuadrature<dim>::BulkQuadrature(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
-    : fields(fields)
+BulkQuadrature<dim>::BulkQuadrature(const DisplacementSpace<dim> &space,
+                                    const std::vector<Body<dim>> &bodies)
+    : space(space)
     , bodies(bodies)
 {
 }
@@ -18,7 +19,7 @@ BulkQuadrature<dim>::tabulate()
   std::vector<PointInCell<dim>>                     points;
   std::map<const dealii::Point<dim> *, std::size_t> gradients_of_rule;
   ShapeValues<dim>                                  shape;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell = rule(a);
       first_points.push_back(points.size());
@@ -33,8 +34,8 @@ BulkQuadrature<dim>::tabulate()
       first_gradients.push_back(place->second);
       for (unsigned int q = 0; q < cell.n_points && is_new; ++q)
         {
-          fields.basis.evaluate_gradients(cell.points[q], shape);
-          for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+          space.basis.evaluate_gradients(cell.points[q], shape);
+          for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
             for (unsigned int d = 0; d < dim; ++d)
               all_gradients.push_back(shape.gradient[i][d]);
         }
@@ -44,7 +45,7 @@ BulkQuadrature<dim>::tabulate()
   all_volume_ratios.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     {
-      const auto &body = bodies[fields.cells()[points[i].active_cell].body];
+      const auto &body = bodies[space.cells()[points[i].active_cell].body];
       all_starts.push_back(body.law->start(of_points[i]));
       all_volume_ratios.push_back(determinant(of_points[i].deformation_gradient));
     }

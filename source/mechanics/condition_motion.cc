@@ -48,7 +48,7 @@ nodes_of(const StrongSupports<dim> &supports)
 
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
+mean_displacements(const DisplacementSpace<dim> &space, const BoundaryTerms<dim> &terms,
                    const StrongSupports<dim> &supports, const PointEvaluator<dim> &u)
 {
   const auto                   &regions = terms.regions();
@@ -59,12 +59,12 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
                   regions[r].points[q].weight * regions[r].points[q].area_ratio);
 
   const auto nodes = nodes_of(supports);
-  for (unsigned int a = 0; a < fields.cells().size() && !nodes.empty(); ++a)
+  for (unsigned int a = 0; a < space.cells().size() && !nodes.empty(); ++a)
     {
-      const double face = std::pow(fields.cell_size(a), dim - 1);
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      const double face = std::pow(space.cell_size(a), dim - 1);
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
-          const DofIndex first = fields.nodes(a)[i];
+          const DofIndex first = space.nodes(a)[i];
           const auto     found = nodes.find(first);
           if (found == nodes.end())
             continue;
@@ -82,7 +82,7 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
       sum.add(of_condition.displacement);
       sum.add(of_condition.weight);
     }
-  sum.reduce(fields.grid.communicator());
+  sum.reduce(space.grid.communicator());
   std::vector<dealii::Tensor<1, dim>> result;
   for (const auto &of_condition : sums)
     result.push_back(of_condition.weight > 0. ? of_condition.displacement / of_condition.weight
@@ -90,9 +90,9 @@ mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                    \
-  template std::vector<dealii::Tensor<1, dim>> mean_displacements(                \
-    const Fields<dim> &, const BoundaryTerms<dim> &, const StrongSupports<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                               \
+  template std::vector<dealii::Tensor<1, dim>> mean_displacements(                           \
+    const DisplacementSpace<dim> &, const BoundaryTerms<dim> &, const StrongSupports<dim> &, \
     const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)

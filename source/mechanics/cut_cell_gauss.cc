@@ -5,9 +5,10 @@
 namespace scree
 {
 template <int dim>
-CutCellGauss<dim>::CutCellGauss(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+CutCellGauss<dim>::CutCellGauss(const DisplacementSpace<dim> &space,
+                                const CutQuadrature<dim>     &quadrature,
                                 const std::vector<Body<dim>> &bodies, const StepStart<dim> &start)
-    : BulkQuadrature<dim>(fields, bodies)
+    : BulkQuadrature<dim>(space, bodies)
     , quadrature(quadrature)
     , start(start)
 {
@@ -18,7 +19,7 @@ template <int dim>
 CellRule<dim>
 CutCellGauss<dim>::rule(const unsigned int active_cell) const
 {
-  return cut_cell_rule(this->fields, quadrature, active_cell);
+  return cut_cell_rule(this->space, quadrature, active_cell);
 }
 
 template <int dim>

@@ -34,7 +34,7 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
     ratios = problem.bulk.nodal_secant_ratios();
   ContactPoints<dim> contact(
     problem.bodies, problem.pairs,
-    level_set_surface(problem.fields, problem.level_set_nodes, problem.bodies, problem.pairs,
+    level_set_surface(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
                       problem.shift(), prediction,
                       problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
                       problem.is_moving() ? &ratios : nullptr));
@@ -52,11 +52,11 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                     [&]() { return contact_points(problem, state, step_size); }))
     , equilibrium(timed(problem.timings, "linear assembly",
                         [&]() {
-                          return Equilibrium<dim>(problem.fields, problem.bodies,
+                          return Equilibrium<dim>(problem.space, problem.bodies,
                                                   *problem.kinematics, problem.boundary_terms,
                                                   contact);
                         }))
-    , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.fields,
+    , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.space,
              equilibrium, contact.points().size(), problem.timings)
 {
 }
@@ -72,19 +72,19 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
     , pairs(pairs)
     , level_set_nodes(
         timed(timings, "fields", [&]() { return LevelSetNodes<dim>(grid, parameters.degree); }))
-    , fields(timed(timings, "fields",
-                   [&]() {
-                     return Fields<dim>(grid, level_set_nodes, bodies,
-                                        BoundaryTerms<dim>::n_multipliers(bodies));
-                   }))
+    , space(timed(timings, "fields",
+                  [&]() {
+                    return DisplacementSpace<dim>(grid, level_set_nodes, bodies,
+                                                  BoundaryTerms<dim>::n_multipliers(bodies));
+                  }))
     , quadrature(timed(timings, "quadrature",
-                       [&]() { return CutQuadrature<dim>(fields, level_set_nodes, bodies); }))
-    , small_cuts(make_small_cut_treatment(fields, parameters.ghost_penalty))
+                       [&]() { return CutQuadrature<dim>(space, level_set_nodes, bodies); }))
+    , small_cuts(make_small_cut_treatment(space, parameters.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
-                             return BoundaryTerms<dim>(fields, level_set_nodes, quadrature, bodies,
+                             return BoundaryTerms<dim>(space, level_set_nodes, quadrature, bodies,
                                                        *kinematics);
                            }))
     , timings(timings)
@@ -98,13 +98,13 @@ DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
 {
   if (!is_moving())
     return timed(timings, "quadrature", [&]() {
-      return std::make_unique<TotalKinematics<dim>>(fields, quadrature, bodies, *small_cuts);
+      return std::make_unique<TotalKinematics<dim>>(space, quadrature, bodies, *small_cuts);
     });
   auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
   return timed(timings, "history at quadrature points", [&]() {
-    auto points = std::make_unique<CutCellGauss<dim>>(fields, quadrature, bodies, *start);
+    auto points = std::make_unique<CutCellGauss<dim>>(space, quadrature, bodies, *start);
     return std::make_unique<IncrementalKinematics<dim>>(
-      fields, quadrature, bodies, *small_cuts, std::move(start), std::move(points), state.time);
+      space, quadrature, bodies, *small_cuts, std::move(start), std::move(points), state.time);
   });
 }
 
@@ -114,10 +114,10 @@ DiscreteProblem<dim>::start_of_step(State<dim> &state) const
 {
   const MovingGeometryParameters &moving = parameters.moving;
   if (state.has_started)
-    distribute_points(fields, moving, state.points);
+    distribute_points(space, moving, state.points);
   else
-    state.points = seed_points(fields, level_set_nodes, bodies, quadrature, moving);
-  return std::make_unique<const StepStart<dim>>(fields, quadrature, bodies, state.points, moving);
+    state.points = seed_points(space, level_set_nodes, bodies, quadrature, moving);
+  return std::make_unique<const StepStart<dim>>(space, quadrature, bodies, state.points, moving);
 }
 
 template <int dim>

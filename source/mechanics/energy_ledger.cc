@@ -6,12 +6,13 @@
 namespace scree
 {
 template <int dim>
-EnergyLedger<dim>::EnergyLedger(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                const Kinematics<dim>     &kinematics,
-                                const BoundaryTerms<dim>  &boundary_terms,
-                                const ContactPoints<dim>  &contact,
+EnergyLedger<dim>::EnergyLedger(const DisplacementSpace<dim> &space,
+                                const std::vector<Body<dim>> &bodies,
+                                const Kinematics<dim>        &kinematics,
+                                const BoundaryTerms<dim>     &boundary_terms,
+                                const ContactPoints<dim>     &contact,
                                 const StrongSupports<dim> &supports, const RigidBodies<dim> &rigid)
-    : fields(fields)
+    : space(space)
     , bodies(bodies)
     , kinematics(kinematics)
     , boundary_terms(boundary_terms)
@@ -21,7 +22,7 @@ EnergyLedger<dim>::EnergyLedger(const Fields<dim> &fields, const std::vector<Bod
 {
   for (Vector *vector :
        {&accepted_u, &accepted_dead_loads, &accepted_reactions, &accepted_prescribed})
-    vector->reinit(fields.owned(), fields.grid.communicator());
+    vector->reinit(space.owned(), space.grid.communicator());
   for (const auto &region : boundary_terms.regions())
     accepted_tractions.emplace_back(region.follows_surface ? region.points.size() : 0);
   accepted_displacements = accepted_tractions;
@@ -34,8 +35,8 @@ EnergyLedger<dim>::work_of_multipliers(const EvaluatedState<dim> &state)
   double work = 0.;
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
     {
-      const DofIndex index = fields.multiplier(i);
-      if (!fields.owned().is_element(index))
+      const DofIndex index = space.multiplier(i);
+      if (!space.owned().is_element(index))
         continue;
       // The row says B u = f, its multiplier acts on the body with -B^T lambda.
       work -= 0.5 * (accepted_u(index) + state.u(index))
@@ -100,7 +101,7 @@ EnergyLedger<dim>::work_of_step(const EvaluatedState<dim> &state)
   work += 0.5 * work_on_prescribed(accepted_driven, state.time);
   set_accepted_conditions(state);
   work += 0.5 * work_on_prescribed(accepted_driven, state.time);
-  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+  return dealii::Utilities::MPI::sum(work, space.grid.communicator());
 }
 
 template <int dim>
@@ -116,7 +117,7 @@ EnergyLedger<dim>::released_work(const EvaluatedState<dim> &state, const Vector 
             * (contact.jumps()[i] - old_history.jump[i]);
   return 0.5
          * (unbalanced->residual * motion - unbalanced->rigid * motion
-            + dealii::Utilities::MPI::sum(work, fields.grid.communicator()));
+            + dealii::Utilities::MPI::sum(work, space.grid.communicator()));
 }
 
 template <int dim>
@@ -134,7 +135,7 @@ EnergyLedger<dim>::accept(const EvaluatedState<dim> &state, const ContactHistory
   energies.external_work += 0.5 * (accepted_dead_loads * motion) + work_of_step(state);
   accepted_dead_loads = state.dead_loads;
   set_accepted(state.time, state.u);
-  energies.dissipation += dissipation(contact, old_history, fields.grid.communicator());
+  energies.dissipation += dissipation(contact, old_history, space.grid.communicator());
   energies.plastic += store_energies(state);
 }
 
@@ -160,7 +161,7 @@ template <int dim>
 double
 EnergyLedger<dim>::store_energies(const EvaluatedState<dim> &state)
 {
-  current_energies.contact  = stored_energy(contact, fields.grid.communicator());
+  current_energies.contact  = stored_energy(contact, space.grid.communicator());
   const auto of_bulk        = kinematics.bulk().work(state.field);
   current_energies.strain   = of_bulk.energy;
   current_energies.boundary = boundary_terms.energy(state.field, state.time);
@@ -173,7 +174,7 @@ template <int dim>
 unsigned int
 EnergyLedger<dim>::n_rigid_unknowns() const
 {
-  return fields.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies);
+  return space.n_trailing() - BoundaryTerms<dim>::n_multipliers(bodies);
 }
 
 template <int dim>
@@ -197,8 +198,8 @@ EnergyLedger<dim>::start_step(const EvaluatedState<dim> &state, const Vector &un
   unbalanced->rigid.reinit(r);
   for (unsigned int i = 0; i < n_rigid_unknowns(); ++i)
     {
-      const DofIndex index = fields.n_dofs() - n_rigid_unknowns() + i;
-      if (!fields.owned().is_element(index))
+      const DofIndex index = space.n_dofs() - n_rigid_unknowns() + i;
+      if (!space.owned().is_element(index))
         continue;
       // These rows of the reactions hold what is unbalanced.
       r(index)                  = 0.;
@@ -214,7 +215,7 @@ EnergyLedger<dim>::start_step(const EvaluatedState<dim> &state, const Vector &un
   accepted_driven    = driving->of_points;
   current_energies   = energies;
   // What laws dissipate at once is counted at the end of the step and was stored before.
-  double cut = cut_energy(contact, history, fields.grid.communicator());
+  double cut = cut_energy(contact, history, space.grid.communicator());
   cut += store_energies(state);
   current_energies.transfer += current_energies.stored() + cut - energies.stored();
 }
@@ -254,8 +255,8 @@ EnergyLedger<dim>::set_accepted_forces(const EvaluatedState<dim> &state)
   accepted_dead_loads = state.dead_loads;
   accepted_reactions  = state.driving;
   for (unsigned int i = 0; i < BoundaryTerms<dim>::n_multipliers(bodies); ++i)
-    if (fields.owned().is_element(fields.multiplier(i)))
-      accepted_prescribed(fields.multiplier(i)) = state.loads(fields.multiplier(i));
+    if (space.owned().is_element(space.multiplier(i)))
+      accepted_prescribed(space.multiplier(i)) = state.loads(space.multiplier(i));
   accepted_prescribed.compress(dealii::VectorOperation::insert);
   set_accepted_conditions(state);
 }
@@ -269,11 +270,11 @@ EnergyLedger<dim>::driving_forces() const
   result.of_rigid.resize(n_rigid_unknowns());
   for (unsigned int i = 0; i < n_rigid_unknowns(); ++i)
     {
-      const DofIndex index = fields.n_dofs() - n_rigid_unknowns() + i;
-      if (fields.owned().is_element(index))
+      const DofIndex index = space.n_dofs() - n_rigid_unknowns() + i;
+      if (space.owned().is_element(index))
         result.of_rigid[i] = accepted_reactions(index);
     }
-  dealii::Utilities::MPI::sum(result.of_rigid, fields.grid.communicator(), result.of_rigid);
+  dealii::Utilities::MPI::sum(result.of_rigid, space.grid.communicator(), result.of_rigid);
   return result;
 }
 

@@ -14,27 +14,28 @@
 namespace scree
 {
 template <int dim>
-Equilibrium<dim>::Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                              const Kinematics<dim>    &kinematics,
+Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
+                              const std::vector<Body<dim>> &bodies,
+                              const Kinematics<dim>        &kinematics,
                               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact)
     : kinematics(kinematics)
-    , fields(fields)
+    , space(space)
     , bodies(bodies)
     , bulk(kinematics.bulk())
     , boundary_terms(boundary_terms)
     , contact(contact)
-    , supports(fields, bodies, kinematics)
-    , rigid(fields, bodies, contact)
-    , free(fields, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite())
-    , ledger(fields, bodies, kinematics, boundary_terms, contact, supports, rigid)
-    , seen_by_bulk(fields)
+    , supports(space, bodies, kinematics)
+    , rigid(space, bodies, contact)
+    , free(space, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite())
+    , ledger(space, bodies, kinematics, boundary_terms, contact, supports, rigid)
+    , seen_by_bulk(space)
 {
   set_up_matrices();
-  const MPI_Comm communicator = fields.grid.communicator();
+  const MPI_Comm communicator = space.grid.communicator();
   for (Vector *vector :
        {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass})
-    vector->reinit(fields.owned(), communicator);
-  ghosted.reinit(fields.owned(), ghosted_dofs, communicator);
+    vector->reinit(space.owned(), communicator);
+  ghosted.reinit(space.owned(), ghosted_dofs, communicator);
   set_up_artificial_mass();
 }
 
@@ -42,17 +43,17 @@ template <int dim>
 void
 Equilibrium<dim>::set_up_matrices()
 {
-  const MPI_Comm communicator = fields.grid.communicator();
+  const MPI_Comm communicator = space.grid.communicator();
   const auto     of_bulk      = bulk.couplings();
   const auto     of_contact   = contact.jump_operator().couplings();
-  ghosted_dofs                = fields.relevant();
+  ghosted_dofs                = space.relevant();
   for (const auto &unknowns : of_contact)
     ghosted_dofs.add_indices(unknowns.begin(), unknowns.end());
   ghosted_dofs.compress();
 
-  dealii::DynamicSparsityPattern pattern(fields.n_dofs(), fields.n_dofs(), ghosted_dofs);
+  dealii::DynamicSparsityPattern pattern(space.n_dofs(), space.n_dofs(), ghosted_dofs);
   for (const auto &nodes : of_bulk)
-    fields.hanging_constraints().add_entries_local_to_global(
+    space.hanging_constraints().add_entries_local_to_global(
       unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
   // Contact stencils have no hanging nodes, but may have nodes that are not relevant here
   // otherwise.
@@ -61,23 +62,23 @@ Equilibrium<dim>::set_up_matrices()
       for (const DofIndex row : unknowns)
         pattern.add_entries(row, unknowns.begin(), unknowns.end(), true);
   for (const auto &unknowns : boundary_terms.multiplier_couplings())
-    fields.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
-  for (const DofIndex index : fields.owned())
+    space.hanging_constraints().add_entries_local_to_global(unknowns, pattern, true);
+  for (const DofIndex index : space.owned())
     pattern.add(index, index);
-  dealii::SparsityTools::distribute_sparsity_pattern(pattern, fields.owned(), communicator,
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, space.owned(), communicator,
                                                      ghosted_dofs);
-  stiffness.reinit(fields.owned(), fields.owned(), pattern, communicator, true);
-  newton_matrix.reinit(fields.owned(), fields.owned(), pattern, communicator, true);
+  stiffness.reinit(space.owned(), space.owned(), pattern, communicator, true);
+  newton_matrix.reinit(space.owned(), space.owned(), pattern, communicator, true);
 
   bulk.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
-  start_forces.reinit(fields.owned(), communicator);
+  start_forces.reinit(space.owned(), communicator);
   stiffness.vmult(start_forces, kinematics.start_displacement());
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
-  diagonal.reinit(fields.owned(), communicator);
-  scratch.reinit(fields.owned(), communicator);
-  for (const DofIndex index : fields.owned())
+  diagonal.reinit(space.owned(), communicator);
+  scratch.reinit(space.owned(), communicator);
+  for (const DofIndex index : space.owned())
     {
       diagonal(index)   = stiffness.diag_element(index);
       largest_stiffness = std::max(largest_stiffness, std::abs(diagonal(index)));
@@ -148,7 +149,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
 {
   // Contact stencils have no hanging nodes, stresses see them.
   scratch = u;
-  fields.hanging_constraints().distribute(scratch);
+  space.hanging_constraints().distribute(scratch);
   ghosted = scratch;
   scratch = u;
   scratch.scale(diagonal);
@@ -189,8 +190,8 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
       r.add(-drag, scratch);
     }
   set_zero_on_prescribed(r);
-  for (const auto &line : fields.hanging_constraints().get_lines())
-    if (fields.owned().is_element(line.index))
+  for (const auto &line : space.hanging_constraints().get_lines())
+    if (space.owned().is_element(line.index))
       r(line.index) = 0.;
   r.compress(dealii::VectorOperation::insert);
   hold_moments(r);
@@ -222,7 +223,7 @@ Equilibrium<dim>::condensation(const bool only_closed)
   eliminate_prescribed(newton_matrix);
 
   // Prescribed unknowns may belong to any process: a ghosted vector tells them.
-  Vector is_prescribed(fields.owned(), fields.grid.communicator());
+  Vector is_prescribed(space.owned(), space.grid.communicator());
   for (const auto &unknown : supports.unknowns())
     is_prescribed(unknown.index) = 1.;
   is_prescribed.compress(dealii::VectorOperation::insert);
@@ -270,7 +271,7 @@ Equilibrium<dim>::is_symmetric() const
   return boundary_terms.is_symmetric() && !boundary_terms.has_multipliers()
          && rigid.is_symmetric(time)
          && dealii::Utilities::MPI::max(static_cast<unsigned int>(!is_symmetric),
-                                        fields.grid.communicator())
+                                        space.grid.communicator())
               == 0;
 }
 
@@ -302,7 +303,7 @@ Equilibrium<dim>::force_scale() const
         for (unsigned int q = 0; q < tractions.size(); ++q)
           held += std::pow(region.points[q].weight, 2) * tractions[q].norm_square();
       }
-  squares += dealii::Utilities::MPI::sum(held, fields.grid.communicator());
+  squares += dealii::Utilities::MPI::sum(held, space.grid.communicator());
   return std::sqrt(squares);
 }
 
@@ -318,7 +319,7 @@ template <int dim>
 std::vector<typename Equilibrium<dim>::Vector>
 Equilibrium<dim>::rigid_motions() const
 {
-  std::vector<Vector> result = near_null_space(fields, bodies);
+  std::vector<Vector> result = near_null_space(space, bodies);
   for (Vector &motion : result)
     supports.set_zero(motion);
   return result;
@@ -329,18 +330,18 @@ std::vector<double>
 Equilibrium<dim>::largest_displacements(const Vector &u) const
 {
   std::vector<double> result(bodies.size(), 0.);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
       {
-        const DofIndex         node = fields.nodes(a)[i];
+        const DofIndex         node = space.nodes(a)[i];
         dealii::Tensor<1, dim> displacement;
-        if (fields.owned().is_element(node) && !fields.hanging_constraints().is_constrained(node))
+        if (space.owned().is_element(node) && !space.hanging_constraints().is_constrained(node))
           for (unsigned int d = 0; d < dim; ++d)
             displacement[d] = u(node + d);
-        double &largest = result[fields.cells()[a].body];
+        double &largest = result[space.cells()[a].body];
         largest         = std::max(largest, displacement.norm());
       }
-  dealii::Utilities::MPI::max(result, fields.grid.communicator(), result);
+  dealii::Utilities::MPI::max(result, space.grid.communicator(), result);
   const Vector with_ghost_values = with_ghosts(u);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (bodies[b].is_rigid())
@@ -353,8 +354,8 @@ typename Equilibrium<dim>::Vector
 Equilibrium<dim>::with_ghosts(const Vector &u) const
 {
   Vector distributed(u);
-  fields.hanging_constraints().distribute(distributed);
-  Vector result(fields.owned(), ghosted_dofs, fields.grid.communicator());
+  space.hanging_constraints().distribute(distributed);
+  Vector result(space.owned(), ghosted_dofs, space.grid.communicator());
   result = distributed;
   return result;
 }
@@ -363,7 +364,7 @@ template <int dim>
 PointEvaluator<dim>
 Equilibrium<dim>::at_points(const Vector &u) const
 {
-  return {fields, with_ghosts(u)};
+  return {space, with_ghosts(u)};
 }
 
 template <int dim>
@@ -376,7 +377,7 @@ Equilibrium<dim>::resultants(const Vector &u) const
   reactions(forces);
   for (const auto &resultant : supports.resultants(forces))
     result.push_back(resultant);
-  const auto displacements = mean_displacements(fields, boundary_terms, supports, field);
+  const auto displacements = mean_displacements(space, boundary_terms, supports, field);
   for (unsigned int i = 0; i < result.size(); ++i)
     result[i].displacement = displacements[i];
   return result;

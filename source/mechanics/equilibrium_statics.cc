@@ -31,8 +31,8 @@ Equilibrium<dim>::set_up_artificial_mass()
   const std::vector<double> masses = rigid.stiffness_scales(rigid_ones);
   for (unsigned int i = 0; i < rigid_ones.size(); ++i)
     for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-      if (const DofIndex unknown = fields.rigid_unknown(rigid_ones[i]) + m;
-          fields.owned().is_element(unknown))
+      if (const DofIndex unknown = space.rigid_unknown(rigid_ones[i]) + m;
+          space.owned().is_element(unknown))
         artificial_mass(unknown) = masses[i];
   artificial_mass.compress(dealii::VectorOperation::insert);
 }
@@ -41,7 +41,7 @@ template <int dim>
 void
 Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
 {
-  for (const DofIndex index : fields.owned())
+  for (const DofIndex index : space.owned())
     if (artificial_mass(index) != 0.)
       matrix.add(index, index, (mass_factor + drag) * artificial_mass(index));
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
@@ -64,7 +64,7 @@ Equilibrium<dim>::shorten(Vector &du, const double length) const
       if (is_meant(free_bodies()[i].body))
         for (const DofIndex unknown : free.unknowns(i))
           largest = std::max(largest, std::abs(du(unknown)));
-    return dealii::Utilities::MPI::max(largest, fields.grid.communicator());
+    return dealii::Utilities::MPI::max(largest, space.grid.communicator());
   };
   // What is not held is sought only if it matters.
   if (largest_among([](const unsigned int) { return true; }) <= length)
@@ -113,7 +113,7 @@ Equilibrium<dim>::artificial_work(const Vector &du) const
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     for (const DofIndex unknown : free.unknowns(i))
       work += mass_factor * artificial_mass(unknown) * du(unknown) * du(unknown);
-  return dealii::Utilities::MPI::sum(work, fields.grid.communicator());
+  return dealii::Utilities::MPI::sum(work, space.grid.communicator());
 }
 
 template <int dim>

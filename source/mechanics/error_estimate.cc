@@ -13,7 +13,7 @@ ErrorEstimate
 estimate_error(const DiscreteProblem<dim> &problem, const State<dim> &state)
 {
   ErrorEstimate result;
-  result.squares = recovery_errors(problem.fields, problem.quadrature, problem.bodies, problem.bulk,
+  result.squares = recovery_errors(problem.space, problem.quadrature, problem.bodies, problem.bulk,
                                    problem.equilibrium().with_ghosts(state.displacement));
   const double squares = dealii::Utilities::MPI::sum(
     std::accumulate(result.squares.begin(), result.squares.end(), 0.), problem.communicator());

@@ -49,9 +49,9 @@ class Recovery
 public:
   using Strain = SymmetricTensor<2, dim>;
 
-  Recovery(const Fields<dim> &fields, const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
-      : fields(fields)
-      , k(fields.basis.degree)
+  Recovery(const DisplacementSpace<dim> &space, const Bulk<dim> &bulk, const PointEvaluator<dim> &u)
+      : space(space)
+      , k(space.basis.degree)
   {
     find_patches();
     fit(bulk, u);
@@ -60,7 +60,7 @@ public:
   /** e* at a point of an owned active cell. */
   Strain strain(const unsigned int active_cell, const Point<dim> &unit_point) const
   {
-    const Point<dim> point = fields.position(active_cell, unit_point);
+    const Point<dim> point = space.position(active_cell, unit_point);
     Strain           sum;
     double           sum_of_weights = 0.;
     for (unsigned int v = 0; v < n_vertices; ++v)
@@ -93,19 +93,19 @@ private:
   DofIndex vertex_node(const unsigned int active_cell, const unsigned int vertex) const
   {
     unsigned int node = 0, stride = k;
-    for (unsigned int d = 0; d < dim; ++d, stride *= fields.basis.n_1d)
+    for (unsigned int d = 0; d < dim; ++d, stride *= space.basis.n_1d)
       node += ((vertex >> d) & 1u) * stride;
-    return fields.nodes(active_cell)[node];
+    return space.nodes(active_cell)[node];
   }
 
   void find_patches()
   {
-    for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (unsigned int a = 0; a < space.cells().size(); ++a)
       for (unsigned int v = 0; v < n_vertices; ++v)
         {
           const DofIndex node  = vertex_node(a, v);
           const auto     found = patch_of_node.find(node);
-          if (a >= fields.n_owned_cells() && found == patch_of_node.end())
+          if (a >= space.n_owned_cells() && found == patch_of_node.end())
             continue; // no owned cell needs it
           const unsigned int index = found == patch_of_node.end() ? patches.size() : found->second;
           if (index == patches.size())
@@ -115,9 +115,9 @@ private:
               Point<dim> corner;
               for (unsigned int d = 0; d < dim; ++d)
                 corner[d] = (v >> d) & 1u;
-              patches.back().centre = fields.position(a, corner);
+              patches.back().centre = space.position(a, corner);
             }
-          const double size   = fields.cell_size(a);
+          const double size   = space.cell_size(a);
           patches[index].size = std::max(patches[index].size, size);
           patches[index].cells.push_back(a);
         }
@@ -128,7 +128,7 @@ private:
     const QGauss<dim>   gauss(k);
     const unsigned int  n_points = gauss.size(), n = n_monomials<dim>(k);
     std::vector<Strain> strains;
-    for (unsigned int a = 0; a < fields.cells().size(); ++a)
+    for (unsigned int a = 0; a < space.cells().size(); ++a)
       for (const Point<dim> &point : gauss.get_points())
         strains.push_back(bulk.sample(a, point, u).strain);
 
@@ -142,7 +142,7 @@ private:
           for (unsigned int q = 0; q < n_points; ++q)
             {
               const auto values = monomials<dim>(
-                (fields.position(a, gauss.point(q)) - patch.centre) / patch.size, k);
+                (space.position(a, gauss.point(q)) - patch.centre) / patch.size, k);
               for (unsigned int i = 0; i < n; ++i)
                 {
                   right_side[i] += values[i] * strains[a * n_points + q];
@@ -161,7 +161,7 @@ private:
       }
   }
 
-  const Fields<dim>                         &fields;
+  const DisplacementSpace<dim>              &space;
   const unsigned int                         k;
   std::unordered_map<DofIndex, unsigned int> patch_of_node;
   std::vector<Patch>                         patches;
@@ -170,16 +170,16 @@ private:
 
 template <int dim>
 std::vector<double>
-recovery_errors(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+recovery_errors(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                 const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
                 const TrilinosWrappers::MPI::Vector &ghosted)
 {
-  const PointEvaluator<dim> u(fields, ghosted);
-  const Recovery<dim>       recovery(fields, bulk, u);
-  std::vector<double>       errors(fields.grid.n_owned_cells(), 0.);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  const PointEvaluator<dim> u(space, ghosted);
+  const Recovery<dim>       recovery(space, bulk, u);
+  std::vector<double>       errors(space.grid.n_owned_cells(), 0.);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       double            sum  = 0.;
       const auto        add  = [&](const Point<dim> &point, const double weight) {
         const auto difference = recovery.strain(a, point) - bulk.sample(a, point, u).strain;
@@ -192,7 +192,7 @@ recovery_errors(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
         for (unsigned int q = 0; q < quadrature.whole_cell.points.size(); ++q)
           add(quadrature.whole_cell.points[q],
               quadrature.whole_cell.weights[q]
-                * std::pow(fields.grid.cells()[cell.grid_cell].size, dim));
+                * std::pow(space.grid.cells()[cell.grid_cell].size, dim));
       errors[cell.grid_cell] += sum;
     }
   return errors;
@@ -218,10 +218,10 @@ largest_share(const std::vector<double> &values, const double share, const MPI_C
   return marked;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template std::vector<double> recovery_errors(const Fields<dim> &, const CutQuadrature<dim> &,   \
-                                               const std::vector<Body<dim>> &, const Bulk<dim> &, \
-                                               const TrilinosWrappers::MPI::Vector &);
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template std::vector<double> recovery_errors(                                                 \
+    const DisplacementSpace<dim> &, const CutQuadrature<dim> &, const std::vector<Body<dim>> &, \
+    const Bulk<dim> &, const TrilinosWrappers::MPI::Vector &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

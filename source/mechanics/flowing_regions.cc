@@ -10,7 +10,7 @@ namespace scree
 {
 template <int dim>
 void
-release_edges(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+release_edges(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
               const std::vector<Body<dim>> &bodies, const Kinematics<dim> &kinematics,
               std::vector<BoundaryRegion<dim>> &regions)
 {
@@ -25,7 +25,7 @@ release_edges(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nod
       is_found[r]          = is_nitsche(regions[r]) && has_edges
                     && std::any_of(regions[r].points.begin(), regions[r].points.end(), flows);
     }
-  dealii::Utilities::MPI::max(is_found, fields.grid.communicator(), is_found);
+  dealii::Utilities::MPI::max(is_found, space.grid.communicator(), is_found);
   // The first region of each body at once, then the second ones: bodies share no cells.
   std::vector<std::vector<unsigned int>> rounds;
   std::vector<unsigned int>              n_of_body(bodies.size());
@@ -38,11 +38,11 @@ release_edges(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nod
       }
   for (const auto &round : rounds)
     {
-      std::vector<double> covered(fields.n_owned_cells(), 0.);
+      std::vector<double> covered(space.n_owned_cells(), 0.);
       for (const unsigned int r : round)
-        set_coverage(fields, level_set_nodes, bodies[regions[r].body], regions[r], kinematics,
+        set_coverage(space, level_set_nodes, bodies[regions[r].body], regions[r], kinematics,
                      covered);
-      const auto is_outer = outer_edge(fields, covered);
+      const auto is_outer = outer_edge(space, covered);
       for (const unsigned int r : round)
         {
           auto &points = regions[r].points;
@@ -76,10 +76,10 @@ forgive_flow(const Kinematics<dim> &kinematics, std::vector<BoundaryRegion<dim>>
     }
 }
 
-#define SCREE_INSTANTIATE(dim)                                                         \
-  template void release_edges(const Fields<dim> &, const LevelSetNodes<dim> &,         \
-                              const std::vector<Body<dim>> &, const Kinematics<dim> &, \
-                              std::vector<BoundaryRegion<dim>> &);                     \
+#define SCREE_INSTANTIATE(dim)                                                            \
+  template void release_edges(const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, \
+                              const std::vector<Body<dim>> &, const Kinematics<dim> &,    \
+                              std::vector<BoundaryRegion<dim>> &);                        \
   template void forgive_flow(const Kinematics<dim> &, std::vector<BoundaryRegion<dim>> &);
 
 SCREE_INSTANTIATE(2)

@@ -37,16 +37,17 @@ sum_over_processes(std::vector<DenseMatrix> &matrices, const MPI_Comm communicat
 } // namespace
 
 template <int dim>
-FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                            const StrongSupports<dim> &supports,
-                            const BoundaryTerms<dim>  &boundary_terms,
+FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
+                            const std::vector<Body<dim>> &bodies,
+                            const StrongSupports<dim>    &supports,
+                            const BoundaryTerms<dim>     &boundary_terms,
                             const ContactPoints<dim> &contact, const bool turns_finitely)
     : bodies(bodies)
     , supports(supports)
     , boundary_terms(boundary_terms)
     , contact(contact)
     , turns_finitely(turns_finitely)
-    , communicator(fields.grid.communicator())
+    , communicator(space.grid.communicator())
     , number_of(bodies.size(), none)
 {
   std::vector<Motions> motions;
@@ -67,7 +68,7 @@ FreeBodies<dim>::FreeBodies(const Fields<dim> &fields, const std::vector<Body<di
       first.push_back(n_coordinates);
       n_coordinates += basis.n();
     }
-  find_unknowns(fields);
+  find_unknowns(space);
   find_couplings();
   for (const ContactPoint<dim> &point : contact.points())
     cell_size = std::max(cell_size, point.cell_size);
@@ -118,7 +119,7 @@ FreeBodies<dim>::resistance_of_supports(const std::vector<Motions> &motions) con
 
 template <int dim>
 void
-FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
+FreeBodies<dim>::find_unknowns(const DisplacementSpace<dim> &space)
 {
   free_unknowns.resize(free_motions.size());
   positions.resize(free_motions.size());
@@ -127,33 +128,33 @@ FreeBodies<dim>::find_unknowns(const Fields<dim> &fields)
     {
       const unsigned int b = free_motions[i].body;
       for (unsigned int m = 0; bodies[b].is_rigid() && m < Motions::n_motions; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
+        if (space.owned().is_element(space.rigid_unknown(b) + m))
           {
-            free_unknowns[i].push_back(fields.rigid_unknown(b) + m);
+            free_unknowns[i].push_back(space.rigid_unknown(b) + m);
             free_components[i].push_back(m);
           }
     }
-  std::vector<bool> is_known(fields.owned().n_elements(), false);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  std::vector<bool> is_known(space.owned().n_elements(), false);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
-      const ActiveCell  &cell = fields.cells()[a];
+      const ActiveCell  &cell = space.cells()[a];
       const unsigned int i    = number_of[cell.body];
       if (i == none)
         continue;
-      const auto &geometry = fields.grid.cells()[cell.grid_cell];
-      for (unsigned int k = 0; k < fields.basis.n_nodes; ++k)
+      const auto &geometry = space.grid.cells()[cell.grid_cell];
+      for (unsigned int k = 0; k < space.basis.n_nodes; ++k)
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const DofIndex unknown = fields.nodes(a)[k] + d;
-            if (!fields.owned().is_element(unknown)
-                || fields.hanging_constraints().is_constrained(unknown)
-                || is_known[fields.owned().index_within_set(unknown)])
+            const DofIndex unknown = space.nodes(a)[k] + d;
+            if (!space.owned().is_element(unknown)
+                || space.hanging_constraints().is_constrained(unknown)
+                || is_known[space.owned().index_within_set(unknown)])
               continue;
-            is_known[fields.owned().index_within_set(unknown)] = true;
+            is_known[space.owned().index_within_set(unknown)] = true;
             free_unknowns[i].push_back(unknown);
             free_components[i].push_back(d);
             positions[i].push_back(geometry.lower
-                                   + geometry.size * dealii::Tensor<1, dim>(fields.basis.node(k)));
+                                   + geometry.size * dealii::Tensor<1, dim>(space.basis.node(k)));
           }
     }
 }

@@ -5,26 +5,26 @@
 namespace scree
 {
 template <int dim>
-IncrementVolumes<dim>::IncrementVolumes(const Fields<dim>            &fields,
+IncrementVolumes<dim>::IncrementVolumes(const DisplacementSpace<dim> &space,
                                         const std::vector<Body<dim>> &bodies,
                                         const BulkQuadrature<dim>    &quadrature,
                                         const std::vector<double>    &shares)
-    : fields(fields)
+    : space(space)
     , bodies(bodies)
     , quadrature(quadrature)
     , shares(shares)
 {
   std::vector<double> weights;
   mode_values.reserve(quadrature.n_points() * n_max);
-  cell_modes.reserve(fields.n_owned_cells());
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  cell_modes.reserve(space.n_owned_cells());
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> points = quadrature.rule(a);
       weights.resize(points.n_points);
       for (unsigned int q = 0; q < points.n_points; ++q)
         weights[q] = points.weights[q] * points.weight_scale / quadrature.starts(a)[q].volume_ratio;
       cell_modes.emplace_back(points.points, weights.data(), points.n_points,
-                              fields.basis.degree - 1);
+                              space.basis.degree - 1);
       for (unsigned int q = 0; q < points.n_points; ++q)
         for (const double value : cell_modes.back()(points.points[q]))
           mode_values.push_back(value);
@@ -42,7 +42,7 @@ template <int dim>
 void
 IncrementVolumes<dim>::project(CellIncrement &cell, CellVolume &volume) const
 {
-  const unsigned int    body   = fields.cells()[cell.active_cell].body;
+  const unsigned int    body   = space.cells()[cell.active_cell].body;
   const WorkOf          work   = bodies[body].law->work();
   const double          r      = exponent(body);
   const IncrementStart *starts = quadrature.starts(cell.active_cell);
@@ -71,7 +71,7 @@ void
 IncrementVolumes<dim>::pull_back(CellIncrement &cell, dealii::Tensor<4, dim> *tangents,
                                  Tangents &of_volumes) const
 {
-  const unsigned int    body                = fields.cells()[cell.active_cell].body;
+  const unsigned int    body                = space.cells()[cell.active_cell].body;
   const double          r                   = exponent(body);
   const std::size_t     first               = quadrature.first_point(cell.active_cell);
   const IncrementStart *starts              = quadrature.starts(cell.active_cell);
@@ -127,10 +127,10 @@ void
 IncrementVolumes<dim>::add_couplings(const unsigned int active_cell, const Tangents &tangents,
                                      dealii::FullMatrix<double> &block) const
 {
-  const unsigned int  n       = fields.basis.n_nodes;
+  const unsigned int  n       = space.basis.n_nodes;
   const unsigned int  n_modes = cell_modes[active_cell].n;
   const CellRule<dim> cell    = quadrature.rule(active_cell);
-  const double        scale   = 1. / fields.cell_size(active_cell);
+  const double        scale   = 1. / space.cell_size(active_cell);
   const double       *shape   = quadrature.unit_gradients(active_cell);
   // Of each mode: the stress by its volume, the mode's force by F_D, its volume by F_D.
   using Rows     = std::array<std::array<double, dim * max_nodes_per_cell<dim>>, n_max>;
@@ -172,16 +172,16 @@ typename IncrementVolumes<dim>::CellVolume
 IncrementVolumes<dim>::cell_volume(const unsigned int         active_cell,
                                    const PointEvaluator<dim> &u) const
 {
-  const unsigned int body = fields.cells()[active_cell].body;
+  const unsigned int body = space.cells()[active_cell].body;
   CellVolume         result;
-  if (active_cell >= fields.n_owned_cells() || shares[body] == 0.)
+  if (active_cell >= space.n_owned_cells() || shares[body] == 0.)
     return result;
   result.is_projected          = true;
   const CellRule<dim>   cell   = quadrature.rule(active_cell);
   const double         *shape  = quadrature.unit_gradients(active_cell);
   const IncrementStart *starts = quadrature.starts(active_cell);
   const double         *psi    = values_of_modes(active_cell);
-  for (unsigned int q = 0; q < cell.n_points; ++q, shape += fields.basis.n_nodes * dim)
+  for (unsigned int q = 0; q < cell.n_points; ++q, shape += space.basis.n_nodes * dim)
     {
       const double            weight = cell.weights[q] * cell.weight_scale;
       const VolumeChange<dim> change(bodies[body].law->work(),
@@ -197,10 +197,10 @@ typename IncrementVolumes<dim>::Derivatives
 IncrementVolumes<dim>::derivatives(const unsigned int         active_cell,
                                    const PointEvaluator<dim> &u) const
 {
-  const unsigned int    n      = fields.basis.n_nodes;
-  const unsigned int    body   = fields.cells()[active_cell].body;
+  const unsigned int    n      = space.basis.n_nodes;
+  const unsigned int    body   = space.cells()[active_cell].body;
   const CellRule<dim>   cell   = quadrature.rule(active_cell);
-  const double          scale  = 1. / fields.cell_size(active_cell);
+  const double          scale  = 1. / space.cell_size(active_cell);
   const double         *shape  = quadrature.unit_gradients(active_cell);
   const IncrementStart *starts = quadrature.starts(active_cell);
   const double         *psi    = values_of_modes(active_cell);
@@ -229,7 +229,7 @@ IncrementVolumes<dim>::change(const unsigned int active_cell, const dealii::Poin
                               const IncrementStart   &start_here,
                               dealii::Tensor<2, dim> &projected) const
 {
-  const unsigned int body = fields.cells()[active_cell].body;
+  const unsigned int body = space.cells()[active_cell].body;
   VolumeChange<dim>  result(bodies[body].law->work(), F_D, start_here);
   const auto         psi   = cell_modes[active_cell](unit_point);
   double             value = 0.;

@@ -22,16 +22,16 @@ shares_of_laws(const std::vector<Body<dim>> &bodies)
 } // namespace
 
 template <int dim>
-IncrementalBulk<dim>::IncrementalBulk(const Fields<dim>            &fields,
+IncrementalBulk<dim>::IncrementalBulk(const DisplacementSpace<dim> &space,
                                       const CutQuadrature<dim>     &quadrature,
                                       const std::vector<Body<dim>> &bodies,
                                       const SmallCutTreatment<dim> &small_cuts,
                                       const BulkQuadrature<dim>    &points,
                                       const PointEvaluator<dim>    &u_n)
-    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares_of_laws(bodies))
+    : Bulk<dim>(space, quadrature, bodies, small_cuts, shares_of_laws(bodies))
     , points(points)
     , u_n(u_n)
-    , projection(fields, bodies, points, projected_shares)
+    , projection(space, bodies, points, projected_shares)
 {
   find_secant_ratios();
 }
@@ -47,8 +47,8 @@ template <int dim>
 void
 IncrementalBulk<dim>::find_secant_ratios()
 {
-  std::vector<std::vector<double>> of_cells(fields.cells().size(), {1.});
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  std::vector<std::vector<double>> of_cells(space.cells().size(), {1.});
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell   = rule(a);
       double              volume = 0., alpha = 0.;
@@ -58,10 +58,10 @@ IncrementalBulk<dim>::find_secant_ratios()
           alpha += cell.weights[q] * points.starts(a)[q].alpha;
         }
       if (alpha > 0.)
-        of_cells[a] = {bodies[fields.cells()[a].body].law->secant_ratio(alpha / volume)};
+        of_cells[a] = {bodies[space.cells()[a].body].law->secant_ratio(alpha / volume)};
     }
-  exchange_to_ghosts(fields, of_cells);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  exchange_to_ghosts(space, of_cells);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     this->secant_ratios[a] = of_cells[a].front();
 }
 
@@ -83,17 +83,17 @@ IncrementalBulk<dim>::answers(const PointEvaluator<dim> &u, const bool with_tang
     return last;
   last.work = {};
   last.piola.resize(points.n_points());
-  last.volumes.resize(fields.cells().size());
+  last.volumes.resize(space.cells().size());
   if (with_tangents)
     {
       last.tangents.resize(points.n_points());
       const bool is_projected = std::any_of(projected_shares.begin(), projected_shares.end(),
                                             [](const double share) { return share > 0.; });
       last.of_volumes.of_points.resize(is_projected ? points.n_points() : 0);
-      last.of_volumes.of_modes.resize(is_projected ? fields.n_owned_cells() : 0);
+      last.of_volumes.of_modes.resize(is_projected ? space.n_owned_cells() : 0);
     }
   CellIncrement cell;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     ask(a, cell);
   return last;
 }
@@ -104,7 +104,7 @@ IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) c
 {
   const CellRule<dim> rule         = points.rule(active_cell);
   const unsigned int  n            = rule.n_points;
-  const unsigned int  body         = fields.cells()[active_cell].body;
+  const unsigned int  body         = space.cells()[active_cell].body;
   const std::size_t   first        = points.first_point(active_cell);
   const bool          is_projected = projected_shares[body] > 0.;
   cell.active_cell                 = active_cell;
@@ -113,7 +113,7 @@ IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) c
   cell.increments.resize(n);
   cell.responses.resize(n);
   const double *shape = points.unit_gradients(active_cell);
-  for (unsigned int q = 0; q < n; ++q, shape += fields.basis.n_nodes * dim)
+  for (unsigned int q = 0; q < n; ++q, shape += space.basis.n_nodes * dim)
     {
       cell.weights[q]    = rule.weights[q] * rule.weight_scale;
       cell.increments[q] = points.increment(*last.u, active_cell, shape);
@@ -142,13 +142,13 @@ void
 IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &forces) const
 {
   const auto            &piola = answers(u, std::exchange(last.expects_tangent, false)).piola;
-  const unsigned int     n     = fields.basis.n_nodes;
+  const unsigned int     n     = space.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell  = points.rule(a);
-      const double        scale = cell.weight_scale / fields.cell_size(a);
+      const double        scale = cell.weight_scale / space.cell_size(a);
       const double       *shape = points.unit_gradients(a);
       cell_forces               = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
@@ -160,8 +160,8 @@ IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &
               for (unsigned int j = 0; j < dim; ++j)
                 cell_forces(b * dim + i) += P[i][j] * shape[b * dim + j];
         }
-      set_unknowns_of_nodes<dim>(fields.nodes(a), n, unknowns);
-      fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
+      set_unknowns_of_nodes<dim>(space.nodes(a), n, unknowns);
+      space.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
     }
 }
 
@@ -205,22 +205,22 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
 {
   const auto &tangents         = answers(u, true).tangents;
   last.expects_tangent         = true;
-  const unsigned int         n = fields.basis.n_nodes;
+  const unsigned int         n = space.basis.n_nodes;
   dealii::FullMatrix<double> block(n * dim, n * dim);
   std::vector<DofIndex>      unknowns;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell  = points.rule(a);
-      const double        scale = cell.weight_scale / std::pow(fields.cell_size(a), 2);
+      const double        scale = cell.weight_scale / std::pow(space.cell_size(a), 2);
       const double       *shape = points.unit_gradients(a);
       block                     = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
         add_stiffness<dim>(tangents[points.first_point(a) + q], shape, n, cell.weights[q] * scale,
                            block);
-      if (projected_shares[fields.cells()[a].body] > 0.)
+      if (projected_shares[space.cells()[a].body] > 0.)
         projection.add_couplings(a, last.of_volumes, block);
-      set_unknowns_of_nodes<dim>(fields.nodes(a), n, unknowns);
-      fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
+      set_unknowns_of_nodes<dim>(space.nodes(a), n, unknowns);
+      space.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
     }
 }
 
@@ -229,7 +229,7 @@ typename IncrementalBulk<dim>::Work
 IncrementalBulk<dim>::work(const PointEvaluator<dim> &u) const
 {
   Work           result       = answers(u, false).work;
-  const MPI_Comm communicator = fields.grid.communicator();
+  const MPI_Comm communicator = space.grid.communicator();
   result.energy               = dealii::Utilities::MPI::sum(result.energy, communicator);
   result.dissipation          = dealii::Utilities::MPI::sum(result.dissipation, communicator);
   return result;
@@ -241,7 +241,7 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
                              const PointEvaluator<dim> &u) const
 {
   const PointInCell<dim> point        = {active_cell, unit_point};
-  const auto            &law          = *bodies[fields.cells()[active_cell].body].law;
+  const auto            &law          = *bodies[space.cells()[active_cell].body].law;
   const auto             history      = points.histories({point}).front();
   const auto             at_start     = law.start(history);
   const auto [displacement, gradient] = u.evaluate(point);

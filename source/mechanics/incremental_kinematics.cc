@@ -12,18 +12,18 @@ namespace
 /** Sets the owned nodes of deformable bodies in u to `factor` times the extended increments. */
 template <int dim>
 void
-set_increments(const Fields<dim> &fields, const Predictor<dim> &predictor, const double factor,
-               dealii::TrilinosWrappers::MPI::Vector &u)
+set_increments(const DisplacementSpace<dim> &space, const Predictor<dim> &predictor,
+               const double factor, dealii::TrilinosWrappers::MPI::Vector &u)
 {
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const auto &of_body = predictor.of_bodies[fields.cells()[a].body];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      const auto &of_body = predictor.of_bodies[space.cells()[a].body];
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
-          const DofIndex node = fields.nodes(a)[i];
-          if (!fields.owned().is_element(node) || fields.hanging_constraints().is_constrained(node))
+          const DofIndex node = space.nodes(a)[i];
+          if (!space.owned().is_element(node) || space.hanging_constraints().is_constrained(node))
             continue;
-          const auto increment = factor * of_body(fields.position(a, fields.basis.node(i)));
+          const auto increment = factor * of_body(space.position(a, space.basis.node(i)));
           for (unsigned int d = 0; d < dim; ++d)
             u(node + d) = increment[d];
         }
@@ -32,7 +32,7 @@ set_increments(const Fields<dim> &fields, const Predictor<dim> &predictor, const
 } // namespace
 
 template <int dim>
-IncrementalKinematics<dim>::IncrementalKinematics(const Fields<dim>                    &fields,
+IncrementalKinematics<dim>::IncrementalKinematics(const DisplacementSpace<dim>         &space,
                                                   const CutQuadrature<dim>             &quadrature,
                                                   const std::vector<Body<dim>>         &bodies,
                                                   const SmallCutTreatment<dim>         &small_cuts,
@@ -40,10 +40,10 @@ IncrementalKinematics<dim>::IncrementalKinematics(const Fields<dim>             
                                                   std::unique_ptr<const BulkQuadrature<dim>> points,
                                                   const double start_time)
     : Kinematics<dim>(start_time)
-    , fields(fields)
+    , space(space)
     , start(std::move(start))
     , points(std::move(points))
-    , incremental_bulk(fields, quadrature, bodies, small_cuts, *this->points,
+    , incremental_bulk(space, quadrature, bodies, small_cuts, *this->points,
                        this->start->displacement_field())
 {
 }
@@ -144,7 +144,7 @@ template <int dim>
 double
 IncrementalKinematics<dim>::position_scale() const
 {
-  const auto [lower, upper] = fields.grid.box().get_boundary_points();
+  const auto [lower, upper] = space.grid.box().get_boundary_points();
   return std::max(lower.norm(), upper.norm());
 }
 
@@ -169,12 +169,12 @@ IncrementalKinematics<dim>::extrapolated(const State<dim> &state, const double t
   const Predictor<dim> &predictor = state.predictor;
   Vector                result    = state.displacement;
   const double          factor    = (time - state.time) / predictor.step_size;
-  set_increments(fields, predictor, factor, result);
+  set_increments(space, predictor, factor, result);
   for (unsigned int b = 0; b < state.bodies.size(); ++b)
     if (state.bodies[b].is_rigid())
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          result(fields.rigid_unknown(b) + m)
+        if (space.owned().is_element(space.rigid_unknown(b) + m))
+          result(space.rigid_unknown(b) + m)
             = state.bodies[b].pose.unknowns()[m] + factor * predictor.of_rigid[b][m];
   result.compress(dealii::VectorOperation::insert);
   return result;

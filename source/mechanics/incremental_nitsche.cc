@@ -113,7 +113,7 @@ IncrementalNitsche<dim>::add_internal_forces(const PointEvaluator<dim> &u, const
                                              Vector                    &forces) const
 {
   const auto        &of_points = answers(u, std::exchange(last.expects_tangent, false)).of_points;
-  const unsigned int n         = fields.basis.n_nodes;
+  const unsigned int n         = space.basis.n_nodes;
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
 
@@ -125,13 +125,13 @@ IncrementalNitsche<dim>::add_internal_forces(const PointEvaluator<dim> &u, const
         {
           const auto                  &point = region.points[q];
           const dealii::Tensor<1, dim> flux  = of_points[r][q].piola * point.normal;
-          fields.basis.evaluate_values(point.unit_point, shape.data());
+          space.basis.evaluate_values(point.unit_point, shape.data());
           cell_forces = 0.;
           for (const unsigned int c : region.condition->components)
             for (unsigned int a = 0; a < n; ++a)
               cell_forces(a * dim + c) = -point.weight * shape[a] * flux[c];
           this->set_unknowns(point, unknowns);
-          fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
+          space.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
         }
     }
 }
@@ -144,9 +144,9 @@ IncrementalNitsche<dim>::set_point_tangent(const BoundaryRegion<dim>  &region,
                                            const VolumeDerivatives    *volume,
                                            dealii::FullMatrix<double> &block) const
 {
-  const unsigned int n = fields.basis.n_nodes;
+  const unsigned int n = space.basis.n_nodes;
   ShapeValues<dim>   shape;
-  fields.evaluate_basis(point.active_cell, point.unit_point, shape);
+  space.evaluate_basis(point.active_cell, point.unit_point, shape);
   // dt[i][k][L]: derivative of t_i with respect to F_D,kL
   dealii::Tensor<3, dim> dt;
   for (const unsigned int c : region.condition->components)
@@ -176,7 +176,7 @@ IncrementalNitsche<dim>::add_tangent(const PointEvaluator<dim> &u, const double 
   const auto &of_points              = answers(u, true).of_points;
   const auto &volumes                = bulk.cell_volumes(u);
   last.expects_tangent               = true;
-  const unsigned int         n       = fields.basis.n_nodes;
+  const unsigned int         n       = space.basis.n_nodes;
   unsigned int               of_cell = dealii::numbers::invalid_unsigned_int;
   VolumeDerivatives          volume;
   dealii::FullMatrix<double> block(n * dim, n * dim);
@@ -196,7 +196,7 @@ IncrementalNitsche<dim>::add_tangent(const PointEvaluator<dim> &u, const double 
           set_point_tangent(region, point, of_points[r][q], is_projected ? &volume : nullptr,
                             block);
           this->set_unknowns(point, unknowns);
-          fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
+          space.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
         }
     }
 }

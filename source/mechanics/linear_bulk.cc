@@ -28,10 +28,11 @@ shares_of_materials(const std::vector<Body<dim>> &bodies)
 } // namespace
 
 template <int dim>
-LinearBulk<dim>::LinearBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+LinearBulk<dim>::LinearBulk(const DisplacementSpace<dim> &space,
+                            const CutQuadrature<dim>     &quadrature,
                             const std::vector<Body<dim>> &bodies,
                             const SmallCutTreatment<dim> &small_cuts)
-    : Bulk<dim>(fields, quadrature, bodies, small_cuts, shares_of_materials(bodies))
+    : Bulk<dim>(space, quadrature, bodies, small_cuts, shares_of_materials(bodies))
 {
 }
 
@@ -40,11 +41,11 @@ void
 LinearBulk<dim>::cell_stiffness(const unsigned int          active_cell,
                                 dealii::FullMatrix<double> &matrix) const
 {
-  const ActiveCell  &cell   = fields.cells()[active_cell];
-  const double       scale  = 1. / fields.cell_size(active_cell);
+  const ActiveCell  &cell   = space.cells()[active_cell];
+  const double       scale  = 1. / space.cell_size(active_cell);
   const double       lambda = bodies[cell.body].material->lame_lambda();
   const double       mu     = bodies[cell.body].material->shear_modulus();
-  const unsigned int n      = fields.basis.n_nodes;
+  const unsigned int n      = space.basis.n_nodes;
   const auto         points = this->rule(active_cell);
 
   // products[i][j](a, b) = int d_i N_a d_j N_b, then the isotropic tensor once.
@@ -54,7 +55,7 @@ LinearBulk<dim>::cell_stiffness(const unsigned int          active_cell,
   ShapeValues<dim>       shape;
   for (unsigned int q = 0; q < points.n_points; ++q)
     {
-      fields.basis.evaluate_gradients(points.points[q], shape);
+      space.basis.evaluate_gradients(points.points[q], shape);
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int d = 0; d < dim; ++d)
           gradient[d][a] = shape.gradient[a][d] * scale;
@@ -92,16 +93,16 @@ LinearBulk<dim>::add_projected_stiffness(const unsigned int active_cell, const d
                                          dealii::FullMatrix<double> &matrix) const
 {
   const auto             points = this->rule(active_cell);
-  const unsigned int     n      = fields.basis.n_nodes * dim;
-  const double           scale  = 1. / fields.cell_size(active_cell);
+  const unsigned int     n      = space.basis.n_nodes * dim;
+  const double           scale  = 1. / space.cell_size(active_cell);
   const VolumeModes<dim> psi(points.points, points.weights, points.n_points,
-                             fields.basis.degree - 1);
+                             space.basis.degree - 1);
   std::array<std::array<double, dim * max_nodes_per_cell<dim>>, VolumeModes<dim>::n_max> integrals
     = {};
   ShapeValues<dim> shape;
   for (unsigned int q = 0; q < points.n_points; ++q)
     {
-      fields.basis.evaluate_gradients(points.points[q], shape);
+      space.basis.evaluate_gradients(points.points[q], shape);
       const auto values = psi(points.points[q]);
       for (unsigned int m = 0; m < psi.n; ++m)
         for (unsigned int i = 0; i < n; ++i)
@@ -118,22 +119,22 @@ template <int dim>
 void
 LinearBulk<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const auto                &constraints = fields.hanging_constraints();
-  const unsigned int         n           = fields.basis.n_nodes;
+  const auto                &constraints = space.hanging_constraints();
+  const unsigned int         n           = space.basis.n_nodes;
   dealii::FullMatrix<double> cell_matrix;
   // Whole cells of one body and size share their matrix.
   std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell    = fields.cells()[a];
-      const auto        indices = unknowns_of_nodes<dim>(fields.nodes(a), n);
+      const ActiveCell &cell    = space.cells()[a];
+      const auto        indices = unknowns_of_nodes<dim>(space.nodes(a), n);
       if (cell.is_cut)
         {
           cell_stiffness(a, cell_matrix);
           constraints.distribute_local_to_global(cell_matrix, indices, matrix);
           continue;
         }
-      auto &shared = whole_cells[{cell.body, fields.cell_size(a)}];
+      auto &shared = whole_cells[{cell.body, space.cell_size(a)}];
       if (shared.empty())
         cell_stiffness(a, shared);
       constraints.distribute_local_to_global(shared, indices, matrix);
@@ -147,8 +148,8 @@ LinearBulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim>
                         const PointEvaluator<dim> &u) const
 {
   const PointInCell<dim> point        = {active_cell, unit_point};
-  const auto            &body         = bodies[fields.cells()[active_cell].body];
-  const double           share        = this->projected_shares[fields.cells()[active_cell].body];
+  const auto            &body         = bodies[space.cells()[active_cell].body];
+  const double           share        = this->projected_shares[space.cells()[active_cell].body];
   const auto [displacement, gradient] = u.evaluate(point);
   BulkSample<dim> result;
   result.displacement = displacement;
@@ -170,14 +171,14 @@ typename LinearBulk<dim>::Work
 LinearBulk<dim>::work(const PointEvaluator<dim> &u) const
 {
   // As u K u/2 with the matrices of the cells, which whole cells share.
-  const unsigned int                                                    n = fields.basis.n_nodes;
+  const unsigned int                                                    n = space.basis.n_nodes;
   dealii::FullMatrix<double>                                            cut_cell;
   std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> whole_cells;
   double                                                                energy = 0.;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
-      auto &matrix = cell.is_cut ? cut_cell : whole_cells[{cell.body, fields.cell_size(a)}];
+      const ActiveCell &cell = space.cells()[a];
+      auto &matrix = cell.is_cut ? cut_cell : whole_cells[{cell.body, space.cell_size(a)}];
       if (cell.is_cut || matrix.empty())
         cell_stiffness(a, matrix);
       // Without the translation of the cell, which has no energy but round-off.
@@ -189,7 +190,7 @@ LinearBulk<dim>::work(const PointEvaluator<dim> &u) const
         for (unsigned int j = 0; j < n * dim; ++j)
           energy += 0.5 * relative[i] * matrix(i, j) * relative[j];
     }
-  return {dealii::Utilities::MPI::sum(energy, fields.grid.communicator()), 0.};
+  return {dealii::Utilities::MPI::sum(energy, space.grid.communicator()), 0.};
 }
 
 template class LinearBulk<2>;

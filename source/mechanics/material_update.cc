@@ -17,38 +17,38 @@ points_per_direction(const MovingGeometryParameters &parameters, const unsigned 
 
 template <int dim>
 MaterialPoints<dim>
-seed_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
             const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
             const MovingGeometryParameters &parameters)
 {
   std::vector<double> density;
   for (const auto &body : bodies)
     density.push_back(body.is_rigid() ? 0. : body.material->density());
-  const PointSeeding<dim> seeding(fields, level_set_nodes, bodies, quadrature, density);
+  const PointSeeding<dim> seeding(space, level_set_nodes, bodies, quadrature, density);
   const unsigned int      n_internal
     = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
   return parameters.places == PointPlaces::quadrature_points
            ? seeding.at_quadrature_points(n_internal)
-           : seeding.on_sub_grid(points_per_direction(parameters, fields.basis.degree), n_internal);
+           : seeding.on_sub_grid(points_per_direction(parameters, space.basis.degree), n_internal);
 }
 
 template <int dim>
 void
-distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &parameters,
+distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParameters &parameters,
                   MaterialPoints<dim> &points)
 {
   // Points may spread a little first, but in a cell that was halved they are divided.
   constexpr double largest_spread = 1.4;
-  const auto       owner = [&](const dealii::Point<dim> &x) { return fields.grid.locate(x).rank; };
-  send_to_owners<dim>(points, owner, fields.grid.communicator());
+  const auto       owner = [&](const dealii::Point<dim> &x) { return space.grid.locate(x).rank; };
+  send_to_owners<dim>(points, owner, space.grid.communicator());
   std::vector<double> cell_size;
-  for (const auto &location : locate_points(fields, points))
-    cell_size.push_back(largest_spread * fields.cell_size(location.active_cell));
-  const unsigned int degree = fields.basis.degree;
+  for (const auto &location : locate_points(space, points))
+    cell_size.push_back(largest_spread * space.cell_size(location.active_cell));
+  const unsigned int degree = space.basis.degree;
   split_points(points, cell_size, points_per_direction(parameters, degree),
                {degree, parameters.support});
   // The parts of a point may lie in cells of other processes.
-  send_to_owners<dim>(points, owner, fields.grid.communicator());
+  send_to_owners<dim>(points, owner, space.grid.communicator());
 }
 
 template <int dim>
@@ -94,14 +94,14 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                           \
-  template MaterialPoints<dim> seed_points(                                              \
-    const Fields<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,     \
-    const CutQuadrature<dim> &, const MovingGeometryParameters &);                       \
-  template void distribute_points(const Fields<dim> &, const MovingGeometryParameters &, \
-                                  MaterialPoints<dim> &);                                \
-  template MaterialPoints<dim> moved_points(                                             \
-    const MaterialPoints<dim> &, const std::vector<Body<dim>> &, const StepStart<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                                             \
+  template MaterialPoints<dim> seed_points(                                                                \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,            \
+    const CutQuadrature<dim> &, const MovingGeometryParameters &);                                         \
+  template void                distribute_points(const DisplacementSpace<dim> &,                           \
+                                                 const MovingGeometryParameters &, MaterialPoints<dim> &); \
+  template MaterialPoints<dim> moved_points(                                                               \
+    const MaterialPoints<dim> &, const std::vector<Body<dim>> &, const StepStart<dim> &,                   \
     const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)

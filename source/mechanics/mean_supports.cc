@@ -9,7 +9,7 @@ double
 MeanSupports<dim>::multiplier_scale(const BoundaryRegion<dim> &region) const
 {
   return this->setting.bodies[region.body].material->young()
-         * std::pow(this->fields.grid.finest_size(), dim - 2) / region.area;
+         * std::pow(this->space.grid.finest_size(), dim - 2) / region.area;
 }
 
 template <int dim>
@@ -17,12 +17,12 @@ void
 MeanSupports<dim>::mean_row(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                             const unsigned int m, std::vector<double> &row) const
 {
-  std::vector<double> shape(this->fields.basis.n_nodes);
-  this->fields.basis.evaluate_values(point.unit_point, shape.data());
+  std::vector<double> shape(this->space.basis.n_nodes);
+  this->space.basis.evaluate_values(point.unit_point, shape.data());
   const unsigned int           component = region.condition->components[m];
   const dealii::Tensor<1, dim> arm       = point.position - region.centre;
-  row.assign(this->fields.basis.n_nodes * dim, 0.);
-  for (unsigned int a = 0; a < this->fields.basis.n_nodes; ++a)
+  row.assign(this->space.basis.n_nodes * dim, 0.);
+  for (unsigned int a = 0; a < this->space.basis.n_nodes; ++a)
     if (component < dim)
       row[a * dim + component] = shape[a] * point.weight;
     else
@@ -39,7 +39,7 @@ template <int dim>
 void
 MeanSupports<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const unsigned int         n = this->fields.basis.n_nodes;
+  const unsigned int         n = this->space.basis.n_nodes;
   dealii::FullMatrix<double> block;
   std::vector<double>        row;
   for (const unsigned int r : this->own_regions)
@@ -53,11 +53,11 @@ MeanSupports<dim>::add_to_matrix(Matrix &matrix) const
           for (unsigned int m = 0; m < n_rows; ++m)
             {
               mean_row(region, point, m, row);
-              indices.push_back(this->fields.multiplier(region.first_multiplier + m));
+              indices.push_back(this->space.multiplier(region.first_multiplier + m));
               for (unsigned int i = 0; i < n * dim; ++i)
                 block(i, n * dim + m) = block(n * dim + m, i) = row[i];
             }
-          this->fields.hanging_constraints().distribute_local_to_global(block, indices, matrix);
+          this->space.hanging_constraints().distribute_local_to_global(block, indices, matrix);
         }
     }
 }
@@ -81,7 +81,7 @@ MeanSupports<dim>::add_loads(Vector &loads, const double time, const bool /*dead
             {
               const unsigned int c     = condition.components[m];
               const double       value = condition.value(m, point.reference_position, time);
-              loads(this->fields.multiplier(region.first_multiplier + m))
+              loads(this->space.multiplier(region.first_multiplier + m))
                 += multiplier_scale(region) * point.weight
                    * (c < dim
                         ? value - u_n[c]
@@ -107,7 +107,7 @@ MeanSupports<dim>::couplings() const
           last_cell    = point.active_cell;
           auto indices = this->unknowns(point);
           for (unsigned int m = 0; m < region.condition->components.size(); ++m)
-            indices.push_back(this->fields.multiplier(region.first_multiplier + m));
+            indices.push_back(this->space.multiplier(region.first_multiplier + m));
           result.push_back(indices);
         }
     }
@@ -124,8 +124,8 @@ MeanSupports<dim>::resultant_of_multipliers(const unsigned int         index,
   for (unsigned int m = 0; m < region.condition->components.size(); ++m)
     {
       // The multiplier spreads -scale * (component, or arm turned by 90 degrees) over the region.
-      const DofIndex index = this->fields.multiplier(region.first_multiplier + m);
-      if (!this->fields.owned().is_element(index))
+      const DofIndex index = this->space.multiplier(region.first_multiplier + m);
+      if (!this->space.owned().is_element(index))
         continue;
       const unsigned int component = region.condition->components[m];
       const double       density   = -u.trailing_value(index) * multiplier_scale(region);

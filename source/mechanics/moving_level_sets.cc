@@ -51,31 +51,31 @@ for_each_node(const Lattice<dim> &lattice, const Index<dim> &first, const Index<
 /** The owned active cells of each body. */
 template <int dim>
 std::vector<std::vector<unsigned int>>
-cells_of_bodies(const Fields<dim> &fields, const unsigned int n_bodies)
+cells_of_bodies(const DisplacementSpace<dim> &space, const unsigned int n_bodies)
 {
   std::vector<std::vector<unsigned int>> cells(n_bodies);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    cells[fields.cells()[a].body].push_back(a);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    cells[space.cells()[a].body].push_back(a);
   return cells;
 }
 
 /** The largest |du| at a node of the cells of each body, on all processes. */
 template <int dim>
 std::vector<double>
-largest_increments(const Fields<dim> &fields, const PointEvaluator<dim> &du,
+largest_increments(const DisplacementSpace<dim> &space, const PointEvaluator<dim> &du,
                    const std::vector<std::vector<unsigned int>> &cells)
 {
   std::vector<double> largest(cells.size(), 0.);
   for (unsigned int b = 0; b < cells.size(); ++b)
     for (const unsigned int a : cells[b])
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
           double square = 0.;
           for (unsigned int d = 0; d < dim; ++d)
             square += std::pow(du.nodal_values(a)[i * dim + d], 2);
           largest[b] = std::max(largest[b], std::sqrt(square));
         }
-  dealii::Utilities::MPI::max(largest, fields.grid.communicator(), largest);
+  dealii::Utilities::MPI::max(largest, space.grid.communicator(), largest);
   return largest;
 }
 
@@ -84,9 +84,9 @@ template <int dim>
 class IncrementInCells
 {
 public:
-  IncrementInCells(const Fields<dim> &fields, const PointEvaluator<dim> &du,
+  IncrementInCells(const DisplacementSpace<dim> &space, const PointEvaluator<dim> &du,
                    const Lattice<dim> &lattice)
-      : fields(fields)
+      : space(space)
       , du(du)
       , lattice(lattice)
   {
@@ -102,7 +102,7 @@ private:
   /** Values of the 1D basis functions at the points i/n, i = 0 ... n. */
   const std::vector<std::array<double, 3>> &table(const unsigned int n);
 
-  const Fields<dim>                              &fields;
+  const DisplacementSpace<dim>                   &space;
   const PointEvaluator<dim>                      &du;
   const Lattice<dim>                             &lattice;
   std::vector<std::vector<std::array<double, 3>>> tables; // by n
@@ -116,13 +116,13 @@ IncrementInCells<dim>::table(const unsigned int n)
     tables.resize(n + 1);
   if (tables[n].empty())
     {
-      const unsigned int  n_1d = fields.basis.n_1d;
-      std::vector<double> values(fields.basis.n_nodes);
+      const unsigned int  n_1d = space.basis.n_1d;
+      std::vector<double> values(space.basis.n_nodes);
       for (unsigned int i = 0; i <= n; ++i)
         {
           dealii::Point<dim> point; // on the first edge, where the other functions vanish
           point[0] = double(i) / n;
-          fields.basis.evaluate_values(point, values.data());
+          space.basis.evaluate_values(point, values.data());
           tables[n].emplace_back();
           std::copy_n(values.begin(), n_1d, tables[n].back().begin());
         }
@@ -134,9 +134,9 @@ template <int dim>
 void
 IncrementInCells<dim>::add_cell(const unsigned int cell, NodalVectors<dim> &values)
 {
-  const auto        &basis  = fields.basis;
+  const auto        &basis  = space.basis;
   const unsigned int n_1d   = basis.n_1d;
-  const auto        &place  = fields.grid.cells()[fields.cells()[cell].grid_cell];
+  const auto        &place  = space.grid.cells()[space.cells()[cell].grid_cell];
   const double       h      = lattice.spacing();
   const int          n      = static_cast<int>(std::lround(place.size / h));
   const auto        &weight = table(n);
@@ -436,14 +436,15 @@ require_movable(const std::vector<Body<dim>> &bodies)
 
 template <int dim>
 std::vector<BodyMotion<dim>>
-move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const Vector &ghosted_du,
-                const Vector &ghosted_displacement, const LevelSetMotion &options)
+move_level_sets(std::vector<Body<dim>> &bodies, const DisplacementSpace<dim> &space,
+                const Vector &ghosted_du, const Vector &ghosted_displacement,
+                const LevelSetMotion &options)
 {
-  const PointEvaluator<dim> du(fields, ghosted_du), displacement(fields, ghosted_displacement);
+  const PointEvaluator<dim> du(space, ghosted_du), displacement(space, ghosted_displacement);
   require_movable(bodies);
-  const auto                   cells   = cells_of_bodies(fields, bodies.size());
-  const std::vector<double>    largest = largest_increments(fields, du, cells);
-  const auto                   box     = fields.grid.box();
+  const auto                   cells   = cells_of_bodies(space, bodies.size());
+  const std::vector<double>    largest = largest_increments(space, du, cells);
+  const auto                   box     = space.grid.box();
   std::vector<BodyMotion<dim>> motions(bodies.size());
   // Of du, and of the displacement for reference maps.
   std::vector<NodalVectors<dim>> at_nodes(2 * bodies.size());
@@ -452,11 +453,11 @@ move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const
       {
         Lattice<dim> &phi = bodies[b].level_set;
         motions[b]        = make_room(phi, box, options.margin, largest[b]);
-        at_nodes[2 * b]   = IncrementInCells<dim>(fields, du, phi).at_nodes(cells[b]);
+        at_nodes[2 * b]   = IncrementInCells<dim>(space, du, phi).at_nodes(cells[b]);
         if (options.motion == IncrementMotion::reference_map)
-          at_nodes[2 * b + 1] = IncrementInCells<dim>(fields, displacement, phi).at_nodes(cells[b]);
+          at_nodes[2 * b + 1] = IncrementInCells<dim>(space, displacement, phi).at_nodes(cells[b]);
       }
-  join<dim>(at_nodes, fields.grid.communicator());
+  join<dim>(at_nodes, space.grid.communicator());
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
       move_level_set<dim>(bodies[b], std::move(at_nodes[2 * b]), std::move(at_nodes[2 * b + 1]),
@@ -464,11 +465,11 @@ move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields, const
   return motions;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                               \
-  template void                         require_movable(const std::vector<Body<dim>> &);     \
-  template std::vector<BodyMotion<dim>> move_level_sets(std::vector<Body<dim>> &,            \
-                                                        const Fields<dim> &, const Vector &, \
-                                                        const Vector &, const LevelSetMotion &);
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template void                         require_movable(const std::vector<Body<dim>> &);      \
+  template std::vector<BodyMotion<dim>> move_level_sets(                                      \
+    std::vector<Body<dim>> &, const DisplacementSpace<dim> &, const Vector &, const Vector &, \
+    const LevelSetMotion &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

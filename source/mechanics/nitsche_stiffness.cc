@@ -7,7 +7,7 @@ namespace scree
 {
 template <int dim>
 NitscheStiffness<dim>::NitscheStiffness(const BoundarySetting<dim> &setting)
-    : fields(setting.fields)
+    : space(setting.space)
     , bodies(setting.bodies)
     , bulk(setting.kinematics.bulk())
 {
@@ -40,10 +40,10 @@ template <int dim>
 double
 NitscheStiffness<dim>::of_point(const BoundaryRegion<dim> &region, const unsigned int q) const
 {
-  const double k = fields.basis.degree;
+  const double k = space.basis.degree;
   return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
          * bodies[region.body].material->p_wave_modulus()
-         / fields.cell_size(region.points[q].active_cell);
+         / space.cell_size(region.points[q].active_cell);
 }
 
 template <int dim>

@@ -9,7 +9,7 @@ NormalMoments<dim>::NormalMoments(const BoundarySetting<dim>      &setting,
                                   const std::vector<unsigned int> &own_regions,
                                   const NitscheStiffness<dim>     &stiffness,
                                   const PrescribedValues<dim>     &prescribed)
-    : fields(setting.fields)
+    : space(setting.space)
     , regions(setting.regions)
     , prescribed(prescribed)
     , moments_of_point(setting.regions.size())
@@ -35,13 +35,13 @@ NormalMoments<dim>::NormalMoments(const BoundarySetting<dim>      &setting,
             continue;
           std::fill(moments_of_point[r].begin() + begin, moments_of_point[r].begin() + end,
                     of_cells.size());
-          of_cells.push_back({r,
-                              begin,
-                              end,
-                              of_moments,
-                              VolumeModes<dim>(points.data(), weights.data(), points.size(),
-                                               fields.basis.degree - 1),
-                              {}});
+          of_cells.push_back(
+            {r,
+             begin,
+             end,
+             of_moments,
+             VolumeModes<dim>(points.data(), weights.data(), points.size(), space.basis.degree - 1),
+             {}});
           for (unsigned int m = 0; m < of_cells.back().modes.n; ++m)
             of_cells.back().rows.push_back(row(of_cells.back(), m));
         }
@@ -53,12 +53,12 @@ std::vector<double>
 NormalMoments<dim>::row(const CellMoments &moments, const unsigned int m) const
 {
   const auto         &region = regions[moments.region];
-  const unsigned int  n      = fields.basis.n_nodes;
+  const unsigned int  n      = space.basis.n_nodes;
   std::vector<double> result(n * dim, 0.), shape(n);
   for (unsigned int q = moments.begin; q < moments.end; ++q)
     {
       const auto &point = region.points[q];
-      fields.basis.evaluate_values(point.unit_point, shape.data());
+      space.basis.evaluate_values(point.unit_point, shape.data());
       const double weight = point.weight * moments.modes(point.unit_point)[m];
       for (const unsigned int c : region.condition->components)
         for (unsigned int a = 0; a < n; ++a)
@@ -93,14 +93,14 @@ std::vector<DofIndex>
 NormalMoments<dim>::unknowns(const CellMoments &moments) const
 {
   const unsigned int cell = regions[moments.region].points[moments.begin].active_cell;
-  return unknowns_of_nodes<dim>(fields.nodes(cell), fields.basis.n_nodes);
+  return unknowns_of_nodes<dim>(space.nodes(cell), space.basis.n_nodes);
 }
 
 template <int dim>
 void
 NormalMoments<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const unsigned int         n = fields.basis.n_nodes * dim;
+  const unsigned int         n = space.basis.n_nodes * dim;
   dealii::FullMatrix<double> block(n, n);
   for (const CellMoments &moments : of_cells)
     {
@@ -112,7 +112,7 @@ NormalMoments<dim>::add_to_matrix(Matrix &matrix) const
             for (unsigned int j = 0; j < n; ++j)
               block(i, j) += moments.stiffness * row[i] * row[j];
         }
-      fields.hanging_constraints().distribute_local_to_global(block, unknowns(moments), matrix);
+      space.hanging_constraints().distribute_local_to_global(block, unknowns(moments), matrix);
     }
 }
 
@@ -120,7 +120,7 @@ template <int dim>
 void
 NormalMoments<dim>::add_loads(Vector &loads, const double time) const
 {
-  const unsigned int     n = fields.basis.n_nodes * dim;
+  const unsigned int     n = space.basis.n_nodes * dim;
   dealii::Vector<double> load(n);
   for (const CellMoments &moments : of_cells)
     {
@@ -132,7 +132,7 @@ NormalMoments<dim>::add_loads(Vector &loads, const double time) const
           for (unsigned int i = 0; i < n; ++i)
             load(i) += value * row[i];
         }
-      fields.hanging_constraints().distribute_local_to_global(load, unknowns(moments), loads);
+      space.hanging_constraints().distribute_local_to_global(load, unknowns(moments), loads);
     }
 }
 

@@ -38,8 +38,8 @@ PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>          
   const auto  &material = *bodies[region.body].material;
   const double lambda = material.lame_lambda(), mu = material.shear_modulus();
   const auto  &n = point.normal;
-  fields.evaluate_basis(point.active_cell, point.unit_point, shape);
-  vectors.resize(fields.basis.n_nodes * dim);
+  space.evaluate_basis(point.active_cell, point.unit_point, shape);
+  vectors.resize(space.basis.n_nodes * dim);
   std::vector<double> divergence;
   double              projected = 0.;
   if (bulk.is_projected(region.body))
@@ -47,7 +47,7 @@ PrescribedDisplacements<dim>::stress_vectors(const BoundaryRegion<dim>          
       divergence = bulk.projected_divergence().coefficients(point.in_cell());
       projected  = bulk.projected_lambda(region.body);
     }
-  for (unsigned int a = 0; a < fields.basis.n_nodes; ++a)
+  for (unsigned int a = 0; a < space.basis.n_nodes; ++a)
     {
       const dealii::Tensor<1, dim> g  = shape.gradient[a];
       const double                 gn = g * n;
@@ -67,7 +67,7 @@ template <int dim>
 void
 PrescribedDisplacements<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const unsigned int                  n = fields.basis.n_nodes;
+  const unsigned int                  n = space.basis.n_nodes;
   ShapeValues<dim>                    shape;
   std::vector<dealii::Tensor<1, dim>> stress;
   dealii::FullMatrix<double>          block;
@@ -95,8 +95,8 @@ PrescribedDisplacements<dim>::add_to_matrix(Matrix &matrix) const
                   block(j, a * dim + c) += adjoint * entry;
                 }
           }
-        fields.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
-                                                                matrix);
+        space.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
+                                                               matrix);
       }
   moments.add_to_matrix(matrix);
 }
@@ -108,7 +108,7 @@ PrescribedDisplacements<dim>::add_loads(Vector &loads, const double time, const 
 {
   if (!prescribed)
     return;
-  const unsigned int                  n = fields.basis.n_nodes;
+  const unsigned int                  n = space.basis.n_nodes;
   ShapeValues<dim>                    shape;
   std::vector<dealii::Tensor<1, dim>> stress;
   dealii::Vector<double>              cell_load(n * dim);
@@ -131,8 +131,8 @@ PrescribedDisplacements<dim>::add_loads(Vector &loads, const double time, const 
             for (unsigned int j = 0; j < n * dim; ++j)
               cell_load(j) += adjoint * point.weight * stress[j][c] * value;
           }
-        fields.hanging_constraints().distribute_local_to_global(cell_load, this->unknowns(point),
-                                                                loads);
+        space.hanging_constraints().distribute_local_to_global(cell_load, this->unknowns(point),
+                                                               loads);
       }
   moments.add_loads(loads, time);
 }

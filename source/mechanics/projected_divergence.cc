@@ -47,21 +47,21 @@ integrate_rows(const LagrangeBasis<dim> &basis, const dealii::Point<dim> *points
 
 template <int dim>
 void
-exchange_to_ghosts(const Fields<dim> &fields, std::vector<std::vector<double>> &of_cells)
+exchange_to_ghosts(const DisplacementSpace<dim> &space, std::vector<std::vector<double>> &of_cells)
 {
   using Content = std::vector<std::pair<unsigned int, std::vector<double>>>;
-  std::vector<Content> of_grid_cell(fields.grid.cells().size());
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    of_grid_cell[fields.cells()[a].grid_cell].emplace_back(fields.cells()[a].body, of_cells[a]);
+  std::vector<Content> of_grid_cell(space.grid.cells().size());
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    of_grid_cell[space.cells()[a].grid_cell].emplace_back(space.cells()[a].body, of_cells[a]);
   dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
-    fields.grid.triangulation(),
+    space.grid.triangulation(),
     [&](const auto &cell) -> dealii::std_cxx17::optional<Content> {
-      return of_grid_cell[fields.grid.local_index(*cell)];
+      return of_grid_cell[space.grid.local_index(*cell)];
     },
     [&](const auto &cell, const Content &content) {
       for (const auto &[body, numbers] : content)
         {
-          const int a = fields.active_cell(fields.grid.local_index(*cell), body);
+          const int a = space.active_cell(space.grid.local_index(*cell), body);
           if (a >= 0)
             of_cells[a] = numbers;
         }
@@ -69,26 +69,26 @@ exchange_to_ghosts(const Fields<dim> &fields, std::vector<std::vector<double>> &
 }
 
 template <int dim>
-ProjectedDivergence<dim>::ProjectedDivergence(const Fields<dim>        &fields,
-                                              const CutQuadrature<dim> &quadrature,
-                                              const std::vector<bool>  &is_projected)
-    : fields(fields)
+ProjectedDivergence<dim>::ProjectedDivergence(const DisplacementSpace<dim> &space,
+                                              const CutQuadrature<dim>     &quadrature,
+                                              const std::vector<bool>      &is_projected)
+    : space(space)
 {
   if (std::find(is_projected.begin(), is_projected.end(), true) == is_projected.end())
     return;
   const auto &whole = quadrature.whole_cell;
-  whole_rows        = integrate_rows(fields.basis, whole.points.data(), whole.weights.data(),
+  whole_rows        = integrate_rows(space.basis, whole.points.data(), whole.weights.data(),
                                      whole.points.size(), 1.);
-  std::vector<std::vector<double>> of_cells(fields.cells().size());
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    if (fields.cells()[a].is_cut && is_projected[fields.cells()[a].body])
+  std::vector<std::vector<double>> of_cells(space.cells().size());
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    if (space.cells()[a].is_cut && is_projected[space.cells()[a].body])
       {
         const auto        &cut   = quadrature.bulk;
         const unsigned int begin = cut.begin[a];
-        of_cells[a] = integrate_rows(fields.basis, &cut.points[begin], &cut.weights[begin],
-                                     cut.begin[a + 1] - begin, 1. / fields.cell_size(a));
+        of_cells[a] = integrate_rows(space.basis, &cut.points[begin], &cut.weights[begin],
+                                     cut.begin[a + 1] - begin, 1. / space.cell_size(a));
       }
-  exchange_to_ghosts(fields, of_cells);
+  exchange_to_ghosts(space, of_cells);
   for (const auto &of_cell : of_cells)
     {
       first_row.push_back(rows.size());
@@ -100,16 +100,16 @@ template <int dim>
 std::pair<const double *, double>
 ProjectedDivergence<dim>::rows_of(const unsigned int active_cell) const
 {
-  if (fields.cells()[active_cell].is_cut)
+  if (space.cells()[active_cell].is_cut)
     return {&rows[first_row[active_cell]], 1.};
-  return {whole_rows.data(), 1. / fields.cell_size(active_cell)};
+  return {whole_rows.data(), 1. / space.cell_size(active_cell)};
 }
 
 template <int dim>
 std::vector<double>
 ProjectedDivergence<dim>::coefficients(const PointInCell<dim> &point) const
 {
-  const unsigned int n_unknowns = fields.basis.n_nodes * dim;
+  const unsigned int n_unknowns = space.basis.n_nodes * dim;
   const auto [of_cell, scale]   = rows_of(point.active_cell);
   std::vector<double> result(n_unknowns, 0.);
   for (unsigned int j = 0; j < VolumeModes<dim>::n_max; ++j)
@@ -125,7 +125,7 @@ template <int dim>
 double
 ProjectedDivergence<dim>::value(const PointInCell<dim> &point, const PointEvaluator<dim> &u) const
 {
-  const unsigned int n_unknowns = fields.basis.n_nodes * dim;
+  const unsigned int n_unknowns = space.basis.n_nodes * dim;
   const auto [of_cell, scale]   = rows_of(point.active_cell);
   const double *nodal           = u.nodal_values(point.active_cell);
   double        result          = 0.;
@@ -138,9 +138,10 @@ ProjectedDivergence<dim>::value(const PointInCell<dim> &point, const PointEvalua
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)             \
-  template class ProjectedDivergence<dim>; \
-  template void exchange_to_ghosts(const Fields<dim> &, std::vector<std::vector<double>> &);
+#define SCREE_INSTANTIATE(dim)                                     \
+  template class ProjectedDivergence<dim>;                         \
+  template void exchange_to_ghosts(const DisplacementSpace<dim> &, \
+                                   std::vector<std::vector<double>> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

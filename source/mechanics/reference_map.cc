@@ -28,13 +28,13 @@ template <int dim>
 class NodeNumbering
 {
 public:
-  explicit NodeNumbering(const Fields<dim> &fields)
-      : fields(fields)
-      , owned(nodes_of(fields.owned()))
-      , relevant(nodes_of(fields.relevant()))
+  explicit NodeNumbering(const DisplacementSpace<dim> &space)
+      : space(space)
+      , owned(nodes_of(space.owned()))
+      , relevant(nodes_of(space.relevant()))
       , constraints(relevant)
   {
-    for (const auto &line : fields.hanging_constraints().get_lines())
+    for (const auto &line : space.hanging_constraints().get_lines())
       if (line.index % dim == 0)
         {
           constraints.add_line(line.index / dim);
@@ -46,21 +46,21 @@ public:
 
   std::vector<DofIndex> of_cell(const unsigned int active_cell) const
   {
-    const DofIndex       *nodes = fields.nodes(active_cell);
-    std::vector<DofIndex> result(nodes, nodes + fields.basis.n_nodes);
+    const DofIndex       *nodes = space.nodes(active_cell);
+    std::vector<DofIndex> result(nodes, nodes + space.basis.n_nodes);
     for (DofIndex &node : result)
       node /= dim;
     return result;
   }
 
-  const Fields<dim>                &fields;
+  const DisplacementSpace<dim>     &space;
   dealii::IndexSet                  owned, relevant;
   dealii::AffineConstraints<double> constraints;
 
 private:
   dealii::IndexSet nodes_of(const dealii::IndexSet &unknowns) const
   {
-    const DofIndex   n_nodes = (fields.n_dofs() - fields.n_trailing()) / dim;
+    const DofIndex   n_nodes = (space.n_dofs() - space.n_trailing()) / dim;
     dealii::IndexSet result(n_nodes);
     for (auto interval = unknowns.begin_intervals(); interval != unknowns.end_intervals();
          ++interval)
@@ -79,8 +79,8 @@ public:
   Fit(const NodeNumbering<dim> &nodes, const MaterialPoints<dim> &points,
       const std::vector<PointInCell<dim>> &locations)
       : nodes(nodes)
-      , communicator(nodes.fields.grid.communicator())
-      , jumps(nodes.fields)
+      , communicator(nodes.space.grid.communicator())
+      , jumps(nodes.space)
   {
     set_up_matrix();
     add_points(points, locations);
@@ -126,7 +126,7 @@ private:
   void set_up_matrix()
   {
     dealii::DynamicSparsityPattern pattern(nodes.owned.size(), nodes.owned.size(), nodes.relevant);
-    for (unsigned int a = 0; a < nodes.fields.n_owned_cells(); ++a)
+    for (unsigned int a = 0; a < nodes.space.n_owned_cells(); ++a)
       nodes.constraints.add_entries_local_to_global(nodes.of_cell(a), pattern, true);
     for (const GhostFace &face : jumps.faces())
       nodes.constraints.add_entries_local_to_global(numbers(jumps.block(face).nodes), pattern,
@@ -155,7 +155,7 @@ private:
     std::stable_sort(order.begin(), order.end(), [&](const unsigned int i, const unsigned int j) {
       return locations[i].active_cell < locations[j].active_cell;
     });
-    const unsigned int                          n = nodes.fields.basis.n_nodes;
+    const unsigned int                          n = nodes.space.basis.n_nodes;
     std::array<double, max_nodes_per_cell<dim>> shape;
     dealii::FullMatrix<double>                  block(n, n);
     std::array<dealii::Vector<double>, dim>     sides;
@@ -170,7 +170,7 @@ private:
         for (; i < order.size() && locations[order[i]].active_cell == cell; ++i)
           {
             const unsigned int p = order[i];
-            nodes.fields.basis.evaluate_values(locations[p].unit_point, shape.data());
+            nodes.space.basis.evaluate_values(locations[p].unit_point, shape.data());
             const double                 volume = points.volume(p);
             const dealii::Tensor<1, dim> u      = points.position[p] - points.reference_position[p];
             for (unsigned int a = 0; a < n; ++a)
@@ -192,7 +192,7 @@ private:
   {
     for (const GhostFace &face : jumps.faces())
       {
-        const double size  = nodes.fields.cell_size(face.cell);
+        const double size  = nodes.space.cell_size(face.cell);
         auto         block = jumps.block(face);
         block.matrix *= jump_weight * size * size;
         nodes.constraints.distribute_local_to_global(block.matrix, numbers(block.nodes), matrix);
@@ -209,36 +209,37 @@ private:
 
 template <int dim>
 std::vector<PointInCell<dim>>
-locate_points(const Fields<dim> &fields, const MaterialPoints<dim> &points)
+locate_points(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points)
 {
   std::vector<PointInCell<dim>> result;
   result.reserve(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
     {
-      const int cell = fields.nearest_active_cell(points.position[p], points.body[p]);
+      const int cell = space.nearest_active_cell(points.position[p], points.body[p]);
       AssertThrow(cell >= 0, dealii::ExcMessage("a material point left its body"));
       result.push_back(
-        {static_cast<unsigned int>(cell), fields.unit_point(cell, points.position[p])});
+        {static_cast<unsigned int>(cell), space.unit_point(cell, points.position[p])});
     }
   return result;
 }
 
 template <int dim>
 dealii::TrilinosWrappers::MPI::Vector
-fit_displacement(const Fields<dim> &fields, const MaterialPoints<dim> &points,
+fit_displacement(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points,
                  const std::vector<PointInCell<dim>> &locations)
 {
-  Vector                   displacement(fields.owned(), fields.grid.communicator());
-  const NodeNumbering<dim> nodes(fields);
+  Vector                   displacement(space.owned(), space.grid.communicator());
+  const NodeNumbering<dim> nodes(space);
   Fit<dim>(nodes, points, locations).solve(displacement);
   return displacement;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                               \
-  template std::vector<PointInCell<dim>>         locate_points(const Fields<dim> &,          \
-                                                               const MaterialPoints<dim> &); \
-  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                           \
-    const Fields<dim> &, const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &);
+#define SCREE_INSTANTIATE(dim)                                                                 \
+  template std::vector<PointInCell<dim>>         locate_points(const DisplacementSpace<dim> &, \
+                                                               const MaterialPoints<dim> &);   \
+  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                             \
+    const DisplacementSpace<dim> &, const MaterialPoints<dim> &,                               \
+    const std::vector<PointInCell<dim>> &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -10,9 +10,10 @@
 namespace scree
 {
 template <int dim>
-RigidBodies<dim>::RigidBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                              const ContactPoints<dim> &contact)
-    : fields(fields)
+RigidBodies<dim>::RigidBodies(const DisplacementSpace<dim> &space,
+                              const std::vector<Body<dim>> &bodies,
+                              const ContactPoints<dim>     &contact)
+    : space(space)
     , bodies(bodies)
     , contact(contact)
 {
@@ -34,7 +35,7 @@ RigidBodies<dim>::couplings() const
     {
       result.emplace_back();
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        result.back().push_back(fields.rigid_unknown(b) + m);
+        result.back().push_back(space.rigid_unknown(b) + m);
     }
   return result;
 }
@@ -65,7 +66,7 @@ template <int dim>
 RigidPose<dim>
 RigidBodies<dim>::pose(const unsigned int body, const Vector &u) const
 {
-  return RigidPose<dim>(*bodies[body].rigid, rigid_unknowns(fields, body, u));
+  return RigidPose<dim>(*bodies[body].rigid, rigid_unknowns(space, body, u));
 }
 
 template <int dim>
@@ -78,8 +79,8 @@ RigidBodies<dim>::applied(const Vector &u, const double time, Vector &forces) co
       const auto            moment = pose(b, u).generalised_moment(applied_moment(b, time));
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         {
-          const DofIndex unknown = fields.rigid_unknown(b) + m;
-          if (rigid.is_free(m) && fields.owned().is_element(unknown))
+          const DofIndex unknown = space.rigid_unknown(b) + m;
+          if (rigid.is_free(m) && space.owned().is_element(unknown))
             forces(unknown) = m < dim ? rigid.value(m, time) : moment[rotation_axis<dim>(m)];
         }
     }
@@ -94,8 +95,8 @@ RigidBodies<dim>::add_to_matrix(const Vector &u, const double time,
   for (const unsigned int b : rigid_bodies)
     {
       const dealii::Tensor<1, 3> moment = applied_moment(b, time);
-      const DofIndex             first  = fields.rigid_unknown(b);
-      if (moment.norm() == 0. || !fields.owned().is_element(first))
+      const DofIndex             first  = space.rigid_unknown(b);
+      if (moment.norm() == 0. || !space.owned().is_element(first))
         continue;
       const auto derivative = pose(b, u).generalised_moment_derivative(moment);
       for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
@@ -171,7 +172,7 @@ RigidBodies<dim>::states(const Vector &u) const
       sum.add(load.force);
       sum.add(load.couple);
     }
-  sum.reduce(fields.grid.communicator());
+  sum.reduce(space.grid.communicator());
   std::vector<RigidBodyState<dim>> result;
   for (unsigned int i = 0; i < loads.size(); ++i)
     {

@@ -33,27 +33,27 @@ RigidMotions<dim>::finite_motion(const std::array<double, n_motions> &q,
 
 template <int dim>
 std::vector<dealii::TrilinosWrappers::MPI::Vector>
-near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
+near_null_space(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies)
 {
   using Vector                     = dealii::TrilinosWrappers::MPI::Vector;
   constexpr unsigned int n_motions = RigidMotions<dim>::n_motions;
 
-  std::vector<Vector> result(n_motions, Vector(fields.owned(), fields.grid.communicator()));
+  std::vector<Vector> result(n_motions, Vector(space.owned(), space.grid.communicator()));
   std::vector<RigidMotions<dim>> motions;
   for (const auto &body : bodies)
     motions.emplace_back(body);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      const ActiveCell &cell = space.cells()[a];
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
-          const dealii::Point<dim> position = fields.position(a, fields.basis.node(i));
+          const dealii::Point<dim> position = space.position(a, space.basis.node(i));
           for (unsigned int m = 0; m < n_motions; ++m)
             {
               const auto value = motions[cell.body].motion(m, position);
               for (unsigned int d = 0; d < dim; ++d)
-                if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                  result[m](fields.nodes(a)[i] + d) = value[d];
+                if (space.owned().is_element(space.nodes(a)[i] + d))
+                  result[m](space.nodes(a)[i] + d) = value[d];
             }
         }
     }
@@ -63,9 +63,9 @@ near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies)
 }
 
 template std::vector<dealii::TrilinosWrappers::MPI::Vector>
-near_null_space(const Fields<2> &, const std::vector<Body<2>> &);
+near_null_space(const DisplacementSpace<2> &, const std::vector<Body<2>> &);
 template std::vector<dealii::TrilinosWrappers::MPI::Vector>
-near_null_space(const Fields<3> &, const std::vector<Body<3>> &);
+near_null_space(const DisplacementSpace<3> &, const std::vector<Body<3>> &);
 template class RigidMotions<2>;
 template class RigidMotions<3>;
 } // namespace scree

@@ -124,21 +124,21 @@ StepStart<dim>::needs_internal(const std::vector<Body<dim>> &bodies)
 }
 
 template <int dim>
-StepStart<dim>::StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                           const std::vector<Body<dim>> &bodies, const MaterialPoints<dim> &points,
                           const MovingGeometryParameters &parameters)
-    : fields(fields)
+    : space(space)
     , bodies(bodies)
     , own_points(points)
     , parameters(parameters)
-    , locations(locate_points(fields, points))
-    , displacements(fields)
+    , locations(locate_points(space, points))
+    , displacements(space)
     , cloud(points.n_internal())
 {
-  fitted             = fit_displacement(fields, points, locations);
+  fitted             = fit_displacement(space, points, locations);
   Vector distributed = fitted;
-  fields.hanging_constraints().distribute(distributed);
-  Vector ghosted(fields.owned(), fields.relevant(), fields.grid.communicator());
+  space.hanging_constraints().distribute(distributed);
+  Vector ghosted(space.owned(), space.relevant(), space.grid.communicator());
   ghosted = distributed;
   displacements.gather(ghosted);
   if (points.n_internal() > 0
@@ -146,7 +146,7 @@ StepStart<dim>::StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &q
     {
       collect_neighbours();
       moving_least_squares.emplace(
-        scree::moving_least_squares(cloud, {fields.basis.degree, parameters.support, true}));
+        scree::moving_least_squares(cloud, {space.basis.degree, parameters.support, true}));
     }
   find_volume_changes(quadrature);
 }
@@ -159,10 +159,10 @@ StepStart<dim>::find_volume_changes(const CutQuadrature<dim> &quadrature)
   const auto                   &whole = quadrature.whole_cell;
   std::vector<PointInCell<dim>> places;
   std::vector<double>           weights;
-  change_of_cell.assign(fields.n_owned_cells(), -1);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  change_of_cell.assign(space.n_owned_cells(), -1);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       const auto       &body = bodies[cell.body];
       if (body.is_rigid() || !has_plastic_strain(*body.law))
         continue;
@@ -189,7 +189,7 @@ StepStart<dim>::find_volume_changes(const CutQuadrature<dim> &quadrature)
           weights[q] /= start.volume_ratio;
         }
       change_of_cell[a] = volume_changes.size();
-      volume_changes.push_back({{points, weights.data(), n, fields.basis.degree - 1}, {}});
+      volume_changes.push_back({{points, weights.data(), n, space.basis.degree - 1}, {}});
       auto &[modes, values] = volume_changes.back();
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int m = 0; m < modes.n; ++m)
@@ -202,9 +202,9 @@ dealii::Tensor<2, dim>
 StepStart<dim>::projected_gradient(const PointInCell<dim>       &point,
                                    const dealii::Tensor<2, dim> &F) const
 {
-  if (point.active_cell >= fields.n_owned_cells())
+  if (point.active_cell >= space.n_owned_cells())
     return F; // a point beyond its body, next to a cell of another process
-  const auto &law             = *bodies[fields.cells()[point.active_cell].body].law;
+  const auto &law             = *bodies[space.cells()[point.active_cell].body].law;
   const auto &[modes, values] = volume_changes[change_of_cell[point.active_cell]];
   if (modes.n == 0)
     return F;
@@ -222,7 +222,7 @@ void
 StepStart<dim>::set_internal(const PointInCell<dim> &point, const double *internal,
                              PointHistory<dim> &history) const
 {
-  const auto &law = *bodies[fields.cells()[point.active_cell].body].law;
+  const auto &law = *bodies[space.cells()[point.active_cell].body].law;
   load_internal(internal, history);
   if (has_plastic_strain(law) && history.alpha > 0.)
     set_plastic_strains<dim>(law, load_tensor(internal + 7),
@@ -234,13 +234,13 @@ void
 StepStart<dim>::collect_neighbours()
 {
   cloud               = own_points;
-  const MPI_Comm comm = fields.grid.communicator();
+  const MPI_Comm comm = space.grid.communicator();
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
     return;
   // A radius that has grown six times by 1.25 is 3.8 times the first one.
   double largest_size = 0.;
-  for (const ActiveCell &cell : fields.cells())
-    largest_size = std::max(largest_size, fields.grid.cells()[cell.grid_cell].size);
+  for (const ActiveCell &cell : space.cells())
+    largest_size = std::max(largest_size, space.grid.cells()[cell.grid_cell].size);
   for (std::size_t p = 0; p < own_points.size(); ++p)
     largest_size = std::max(largest_size, own_points.spacing(p));
   const double reach  = 4. * parameters.support * dealii::Utilities::MPI::max(largest_size, comm);
@@ -248,7 +248,7 @@ StepStart<dim>::collect_neighbours()
     own_points,
     [&](const dealii::Point<dim> &x) {
       // The processes of a lattice of probes as fine as the cells are.
-      const int              n = static_cast<int>(std::ceil(reach / fields.grid.finest_size()));
+      const int              n = static_cast<int>(std::ceil(reach / space.grid.finest_size()));
       std::set<unsigned int> ranks;
       const int              stride = std::max(1, n / 4);
       for (int i = -n; i <= n; i += stride)
@@ -256,10 +256,10 @@ StepStart<dim>::collect_neighbours()
           for (int k = dim == 3 ? -n : 0; k <= (dim == 3 ? n : 0); k += stride)
             {
               dealii::Point<dim> probe = x;
-              probe[0] += i * fields.grid.finest_size();
-              probe[1] += j * fields.grid.finest_size();
-              probe[dim - 1] += dim == 3 ? k * fields.grid.finest_size() : 0.;
-              ranks.insert(fields.grid.locate(probe).rank);
+              probe[0] += i * space.grid.finest_size();
+              probe[1] += j * space.grid.finest_size();
+              probe[dim - 1] += dim == 3 ? k * space.grid.finest_size() : 0.;
+              ranks.insert(space.grid.locate(probe).rank);
             }
       return std::vector<unsigned int>(ranks.begin(), ranks.end());
     },
@@ -275,9 +275,9 @@ StepStart<dim>::weights(const std::vector<PointInCell<dim>> &targets) const
   Targets<dim> places;
   for (const auto &target : targets)
     {
-      places.position.push_back(fields.position(target.active_cell, target.unit_point));
-      places.body.push_back(fields.cells()[target.active_cell].body);
-      places.cell_size.push_back(fields.cell_size(target.active_cell));
+      places.position.push_back(space.position(target.active_cell, target.unit_point));
+      places.body.push_back(space.cells()[target.active_cell].body);
+      places.cell_size.push_back(space.cell_size(target.active_cell));
     }
   PointWeights result = moving_least_squares->weights(places);
   report.n_targets += result.report.n_targets;
@@ -303,7 +303,7 @@ template <int dim>
 dealii::Point<dim>
 StepStart<dim>::reference_position(const PointInCell<dim> &point) const
 {
-  return fields.position(point.active_cell, point.unit_point) - displacements.value(point);
+  return space.position(point.active_cell, point.unit_point) - displacements.value(point);
 }
 
 template <int dim>
@@ -313,8 +313,8 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
 {
   if (determinant(F) > 0.)
     return;
-  const dealii::Point<dim> x = fields.position(point.active_cell, point.unit_point);
-  throw UserError("Bodies/" + bodies[fields.cells()[point.active_cell].body].name,
+  const dealii::Point<dim> x = space.position(point.active_cell, point.unit_point);
+  throw UserError("Bodies/" + bodies[space.cells()[point.active_cell].body].name,
                   "its displacement at the start of the step turns the material at "
                     + short_place(x) + " inside out: det F = " + short_number(determinant(F)),
                   "use more steps or finer cells; where a prescribed displacement ends at a sharp "

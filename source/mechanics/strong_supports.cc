@@ -32,10 +32,11 @@ contradict(const BoundaryCondition<dim> &a, const unsigned int value_a,
 } // namespace
 
 template <int dim>
-StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
-                                    const Kinematics<dim> &kinematics)
+StrongSupports<dim>::StrongSupports(const DisplacementSpace<dim> &space,
+                                    const std::vector<Body<dim>> &bodies,
+                                    const Kinematics<dim>        &kinematics)
     : kinematics(kinematics)
-    , communicator(fields.grid.communicator())
+    , communicator(space.grid.communicator())
 {
   std::vector<std::vector<unsigned int>> supports_of_body(bodies.size());
   for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -47,9 +48,9 @@ StrongSupports<dim>::StrongSupports(const Fields<dim> &fields, const std::vector
         }
   std::vector<Selection>                     selections(supports.size());
   std::map<DofIndex, PrescribedUnknown<dim>> found;
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    for (const unsigned int support : supports_of_body[fields.cells()[a].body])
-      select(fields, a, support, selections[support], found);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (const unsigned int support : supports_of_body[space.cells()[a].body])
+      select(space, a, support, selections[support], found);
   require_selections(bodies, selections);
   for (const auto &[index, unknown] : found)
     prescribed.push_back(unknown);
@@ -75,16 +76,16 @@ StrongSupports<dim>::is_prescribed_at(const BoundaryCondition<dim> &condition,
 
 template <int dim>
 void
-StrongSupports<dim>::select(const Fields<dim> &fields, const unsigned int a,
+StrongSupports<dim>::select(const DisplacementSpace<dim> &space, const unsigned int a,
                             const unsigned int support, Selection &selection,
                             std::map<DofIndex, PrescribedUnknown<dim>> &found) const
 {
   const BoundaryCondition<dim> &condition = *supports[support].second;
-  const auto                   &cell      = fields.grid.cells()[fields.cells()[a].grid_cell];
-  for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+  const auto                   &cell      = space.grid.cells()[space.cells()[a].grid_cell];
+  for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
     {
-      const dealii::Point<dim> unit_node          = fields.basis.node(i);
-      const dealii::Point<dim> position           = fields.position(a, unit_node);
+      const dealii::Point<dim> unit_node          = space.basis.node(i);
+      const dealii::Point<dim> position           = space.position(a, unit_node);
       const dealii::Point<dim> reference_position = kinematics.reference_position({a, unit_node});
       if (!is_prescribed_at(condition, cell, unit_node, reference_position))
         continue;
@@ -92,16 +93,15 @@ StrongSupports<dim>::select(const Fields<dim> &fields, const unsigned int a,
       for (unsigned int k = 0; k < condition.components.size(); ++k)
         {
           const unsigned int component = condition.components[k];
-          const DofIndex     index     = fields.nodes(a)[i] + component;
-          if (!fields.owned().is_element(index)
-              || fields.hanging_constraints().is_constrained(index))
+          const DofIndex     index     = space.nodes(a)[i] + component;
+          if (!space.owned().is_element(index) || space.hanging_constraints().is_constrained(index))
             continue;
           const auto other = found.find(index);
           if (other != found.end() && other->second.support != support)
             {
               selection.n_contradictions += contradict(
                 condition, k, *supports[other->second.support].second, other->second.value,
-                reference_position, fields.grid.box().side_length(component));
+                reference_position, space.grid.box().side_length(component));
               if (other->second.support < support)
                 continue;
             }

@@ -37,7 +37,7 @@ SurfaceTractions<dim>::add_integral(const unsigned int index, const double facto
                                     const std::vector<SurfaceTraction<dim>> &tractions,
                                     Vector                                  &forces) const
 {
-  const unsigned int     n      = this->fields.basis.n_nodes;
+  const unsigned int     n      = this->space.basis.n_nodes;
   const auto            &region = this->region(index);
   dealii::Vector<double> cell_forces(n * dim);
   std::vector<DofIndex>  unknowns;
@@ -46,12 +46,12 @@ SurfaceTractions<dim>::add_integral(const unsigned int index, const double facto
   for (unsigned int q = 0; q < region.points.size(); ++q)
     {
       const auto &point = region.points[q];
-      this->fields.basis.evaluate_values(point.unit_point, shape.data());
+      this->space.basis.evaluate_values(point.unit_point, shape.data());
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int d = 0; d < dim; ++d)
           cell_forces(a * dim + d) = factor * point.weight * shape[a] * tractions[q].traction[d];
       this->set_unknowns(point, unknowns);
-      this->fields.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
+      this->space.hanging_constraints().distribute_local_to_global(cell_forces, unknowns, forces);
     }
 }
 
@@ -59,7 +59,7 @@ template <int dim>
 void
 SurfaceTractions<dim>::add_to_matrix(Matrix &matrix) const
 {
-  const unsigned int         n = this->fields.basis.n_nodes;
+  const unsigned int         n = this->space.basis.n_nodes;
   ShapeValues<dim>           shape;
   dealii::FullMatrix<double> block(n * dim, n * dim);
   for (const unsigned int r : this->own_regions)
@@ -71,7 +71,7 @@ SurfaceTractions<dim>::add_to_matrix(Matrix &matrix) const
       for (unsigned int q = 0; q < region.points.size(); ++q)
         {
           const auto &point = region.points[q];
-          this->fields.basis.evaluate_gradients(point.unit_point, shape);
+          this->space.basis.evaluate_gradients(point.unit_point, shape);
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int b = 0; b < n; ++b)
               for (unsigned int c = 0; c < dim; ++c)
@@ -79,8 +79,8 @@ SurfaceTractions<dim>::add_to_matrix(Matrix &matrix) const
                   block(a * dim + c, b * dim + d) = -point.weight
                                                     * tractions[q].by_displacement[c][d]
                                                     * shape.value[a] * shape.value[b];
-          this->fields.hanging_constraints().distribute_local_to_global(
-            block, this->unknowns(point), matrix);
+          this->space.hanging_constraints().distribute_local_to_global(block, this->unknowns(point),
+                                                                       matrix);
         }
     }
 }
@@ -111,7 +111,7 @@ void
 SurfaceTractions<dim>::add_tangent(const PointEvaluator<dim> &u, const double time,
                                    Matrix &matrix) const
 {
-  const unsigned int         n = this->fields.basis.n_nodes;
+  const unsigned int         n = this->space.basis.n_nodes;
   ShapeValues<dim>           shape;
   dealii::FullMatrix<double> block(n * dim, n * dim);
   std::vector<DofIndex>      unknowns;
@@ -123,10 +123,10 @@ SurfaceTractions<dim>::add_tangent(const PointEvaluator<dim> &u, const double ti
       for (unsigned int q = 0; q < tractions.size(); ++q)
         {
           const auto &point = this->region(r).points[q];
-          this->fields.evaluate_basis(point.active_cell, point.unit_point, shape);
+          this->space.evaluate_basis(point.active_cell, point.unit_point, shape);
           this->set_tangent(point, shape, -tractions[q].by_increment, block);
           this->set_unknowns(point, unknowns);
-          this->fields.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
+          this->space.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
         }
     }
 }

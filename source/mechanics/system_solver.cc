@@ -6,19 +6,19 @@ namespace scree
 {
 template <int dim>
 SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
-                                const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
+                                const DisplacementSpace<dim> &space, Equilibrium<dim> &equilibrium,
                                 const std::size_t n_contact_points, Timings &timings)
     : equilibrium(equilibrium)
     , timings(timings)
     , linear_solver(parameters, dim, degree)
 {
   const auto n_all_points
-    = dealii::Utilities::MPI::sum(n_contact_points, fields.grid.communicator());
+    = dealii::Utilities::MPI::sum(n_contact_points, space.grid.communicator());
   condenses = equilibrium.is_linear_elsewhere()
-              && linear_solver.condenses(fields.n_dofs(), dim * n_all_points)
+              && linear_solver.condenses(space.n_dofs(), dim * n_all_points)
               && !equilibrium.has_free_rigid_bodies();
   linear_solver.set_near_null_space(equilibrium.rigid_motions());
-  linear_solver.set_border(fields.n_trailing());
+  linear_solver.set_border(space.n_trailing());
 }
 
 template <int dim>

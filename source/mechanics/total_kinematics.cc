@@ -5,14 +5,14 @@
 namespace scree
 {
 template <int dim>
-TotalKinematics<dim>::TotalKinematics(const Fields<dim>            &fields,
+TotalKinematics<dim>::TotalKinematics(const DisplacementSpace<dim> &space,
                                       const CutQuadrature<dim>     &quadrature,
                                       const std::vector<Body<dim>> &bodies,
                                       const SmallCutTreatment<dim> &small_cuts)
     : Kinematics<dim>(0.)
-    , fields(fields)
-    , linear_bulk(fields, quadrature, bodies, small_cuts)
-    , zero(fields.owned(), fields.grid.communicator())
+    , space(space)
+    , linear_bulk(space, quadrature, bodies, small_cuts)
+    , zero(space.owned(), space.grid.communicator())
 {
 }
 
@@ -71,14 +71,14 @@ template <int dim>
 PointEvaluator<dim>
 TotalKinematics<dim>::start_displacement_field() const
 {
-  return PointEvaluator<dim>(fields);
+  return PointEvaluator<dim>(space);
 }
 
 template <int dim>
 dealii::Point<dim>
 TotalKinematics<dim>::reference_position(const PointInCell<dim> &point) const
 {
-  return fields.position(point.active_cell, point.unit_point);
+  return space.position(point.active_cell, point.unit_point);
 }
 
 template <int dim>

@@ -209,9 +209,10 @@ von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz)
 }
 
 template <int dim>
-BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+BodyOutput<dim>::BodyOutput(const DisplacementSpace<dim> &space,
+                            const LevelSetNodes<dim>     &level_set_nodes,
                             const std::vector<Body<dim>> &bodies)
-    : fields(fields)
+    : space(space)
     , bodies(bodies)
 {
   const auto add_whole = [&](const unsigned int a) {
@@ -220,9 +221,9 @@ BodyOutput<dim>::BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> 
       piece.vertices.push_back(dealii::GeometryInfo<dim>::unit_cell_vertex(v));
     body_pieces.push_back(piece);
   };
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = fields.cells()[a];
+      const ActiveCell &cell = space.cells()[a];
       if (!cell.is_cut)
         {
           add_whole(a);
@@ -248,7 +249,7 @@ void
 BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<double> &phi)
 {
   // Sub-cells between the nodes, each divided into simplices with linear phi.
-  const LagrangeBasis<dim> &basis = fields.basis;
+  const LagrangeBasis<dim> &basis = space.basis;
   const unsigned int        k     = basis.degree;
   for (unsigned int sub = 0; sub < (dim == 2 ? k * k : k * k * k); ++sub)
     {
@@ -272,7 +273,7 @@ std::vector<typename BodyOutput<dim>::RigidPiece>
 BodyOutput<dim>::cut_rigid_bodies() const
 {
   std::vector<RigidPiece> pieces;
-  if (dealii::Utilities::MPI::this_mpi_process(fields.grid.communicator()) == 0)
+  if (dealii::Utilities::MPI::this_mpi_process(space.grid.communicator()) == 0)
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (bodies[b].is_rigid())
         cut_rigid_body(b, pieces);
@@ -348,7 +349,7 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
                        const unsigned int number, const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const PointEvaluator<dim> field(fields, u), start = kinematics.start_displacement_field();
+  const PointEvaluator<dim> field(space, u), start = kinematics.start_displacement_field();
   const bool                is_moved = kinematics.moves_bodies();
   Patches<dim>              output;
   output.names   = field_names<dim>();
@@ -356,12 +357,12 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
 
   for (const Piece &piece : body_pieces)
     {
-      const ActiveCell               &cell = fields.cells()[piece.active_cell];
+      const ActiveCell               &cell = space.cells()[piece.active_cell];
       std::vector<dealii::Point<dim>> vertices;
       std::vector<BulkSample<dim>>    samples;
       for (const auto &vertex : piece.vertices)
         {
-          vertices.push_back(fields.position(piece.active_cell, vertex));
+          vertices.push_back(space.position(piece.active_cell, vertex));
           samples.push_back(kinematics.bulk().sample(piece.active_cell, vertex, field));
           if (is_moved)
             vertices.back()
@@ -373,7 +374,7 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
     }
   for (const RigidPiece &piece : cut_rigid_bodies())
     {
-      const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(fields, piece.body, u));
+      const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(space, piece.body, u));
       std::vector<dealii::Point<dim>> vertices = piece.vertices;
       if (is_moved)
         for (auto &vertex : vertices)
@@ -389,7 +390,7 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
   output.set_flags(flags);
   return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
-                         fields.grid.communicator(),
+                         space.grid.communicator(),
                          field_datum("TimeValue", time)
                            + field_datum("points_are_moved", is_moved ? 1. : 0.));
 }

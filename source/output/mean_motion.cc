@@ -18,18 +18,18 @@ struct Moments
 
 template <int dim>
 std::vector<Moments<dim>>
-moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+moments(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
         const CutQuadrature<dim> &quadrature, const PointEvaluator<dim> &u_n,
         const PointEvaluator<dim> &u)
 {
   std::vector<Moments<dim>> result(bodies.size());
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell  &cell  = fields.cells()[a];
+      const ActiveCell  &cell  = space.cells()[a];
       const auto        &whole = quadrature.whole_cell;
       const auto        &cut   = quadrature.bulk;
       Moments<dim>      &sum   = result[cell.body];
-      const double       scale = cell.is_cut ? 1. : std::pow(fields.cell_size(a), dim);
+      const double       scale = cell.is_cut ? 1. : std::pow(space.cell_size(a), dim);
       const unsigned int first = cell.is_cut ? cut.begin[a] : 0;
       const unsigned int last  = cell.is_cut ? cut.begin[a + 1] : whole.points.size();
       for (unsigned int q = first; q < last; ++q)
@@ -39,7 +39,7 @@ moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
           const auto             step   = u.value(point);
           const auto             before = u_n.value(point);
           const dealii::Tensor<1, dim> x
-            = fields.position(a, point.unit_point) - bodies[cell.body].box.center();
+            = space.position(a, point.unit_point) - bodies[cell.body].box.center();
           sum.volume += weight;
           sum.now += weight * (x + step);
           sum.displacement += weight * (before + step);
@@ -54,20 +54,20 @@ moments(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
       sum.add(of_body.displacement);
       sum.add(of_body.now_then);
     }
-  sum.reduce(fields.grid.communicator());
+  sum.reduce(space.grid.communicator());
   return result;
 }
 } // namespace
 
 template <int dim>
 std::vector<MeanMotion<dim>>
-mean_motions(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+mean_motions(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
              const CutQuadrature<dim> &quadrature, const Kinematics<dim> &kinematics,
              const dealii::TrilinosWrappers::MPI::Vector &u)
 {
   std::vector<MeanMotion<dim>> result(bodies.size());
-  const auto sums = moments(fields, bodies, quadrature, kinematics.start_displacement_field(),
-                            PointEvaluator<dim>(fields, u));
+  const auto sums = moments(space, bodies, quadrature, kinematics.start_displacement_field(),
+                            PointEvaluator<dim>(space, u));
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (!bodies[b].is_rigid())
       {
@@ -111,10 +111,10 @@ rotation_vector(const dealii::Tensor<2, dim> &matrix)
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                       \
-  template std::vector<MeanMotion<dim>> mean_motions(                                \
-    const Fields<dim> &, const std::vector<Body<dim>> &, const CutQuadrature<dim> &, \
-    const Kinematics<dim> &, const dealii::TrilinosWrappers::MPI::Vector &);         \
+#define SCREE_INSTANTIATE(dim)                                                                  \
+  template std::vector<MeanMotion<dim>> mean_motions(                                           \
+    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, const CutQuadrature<dim> &, \
+    const Kinematics<dim> &, const dealii::TrilinosWrappers::MPI::Vector &);                    \
   template dealii::Tensor<1, 3> rotation_vector(const dealii::Tensor<2, dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -41,12 +41,12 @@ sample_columns()
 
 template <int dim>
 std::vector<std::vector<double>>
-sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<dim> &fields,
-       const Bulk<dim> &bulk, const dealii::TrilinosWrappers::MPI::Vector &ghosted,
-       const bool must_exist)
+sample(const ProbeParameters<dim> &probe, const unsigned int body,
+       const DisplacementSpace<dim> &space, const Bulk<dim> &bulk,
+       const dealii::TrilinosWrappers::MPI::Vector &ghosted, const bool must_exist)
 {
-  const PointEvaluator<dim> u(fields, ghosted);
-  const MPI_Comm            communicator = fields.grid.communicator();
+  const PointEvaluator<dim> u(space, ghosted);
+  const MPI_Comm            communicator = space.grid.communicator();
   const unsigned int        rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int        n_columns    = sample_columns<dim>().size();
   // A row ends with whether it was found.
@@ -59,12 +59,12 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<
   for (unsigned int i = 0; i < probe.n_points; ++i)
     {
       const dealii::Point<dim> point = place(i);
-      if (fields.grid.locate(point).rank != rank)
+      if (space.grid.locate(point).rank != rank)
         continue;
-      const int cell = fields.nearest_active_cell(point, body);
+      const int cell = space.nearest_active_cell(point, body);
       if (cell < 0)
         continue;
-      const auto sampled = bulk.sample(cell, fields.unit_point(cell, point), u);
+      const auto sampled = bulk.sample(cell, space.unit_point(cell, point), u);
       double    *value   = &values[i * (n_columns + 1)];
       for (unsigned int d = 0; d < dim; ++d)
         *value++ = point[d];
@@ -99,12 +99,12 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body, const Fields<
   return rows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template struct ProbeParameters<dim>;                                                       \
-  template std::vector<std::string>         sample_columns<dim>();                            \
-  template std::vector<std::vector<double>> sample(                                           \
-    const ProbeParameters<dim> &, const unsigned int, const Fields<dim> &, const Bulk<dim> &, \
-    const dealii::TrilinosWrappers::MPI::Vector &, const bool);
+#define SCREE_INSTANTIATE(dim)                                                        \
+  template struct ProbeParameters<dim>;                                               \
+  template std::vector<std::string>         sample_columns<dim>();                    \
+  template std::vector<std::vector<double>> sample(                                   \
+    const ProbeParameters<dim> &, const unsigned int, const DisplacementSpace<dim> &, \
+    const Bulk<dim> &, const dealii::TrilinosWrappers::MPI::Vector &, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -103,13 +103,13 @@ Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>>
 
 template <int dim>
 void
-Results<dim>::set_discretization(const Fields<dim>        &new_fields,
-                                 const LevelSetNodes<dim> &level_set_nodes)
+Results<dim>::set_discretization(const DisplacementSpace<dim> &new_space,
+                                 const LevelSetNodes<dim>     &level_set_nodes)
 {
-  fields = &new_fields;
-  nodes  = &level_set_nodes;
+  space = &new_space;
+  nodes = &level_set_nodes;
   body_output.reset();
-  is_first = dealii::Utilities::MPI::this_mpi_process(new_fields.grid.communicator()) == 0;
+  is_first = dealii::Utilities::MPI::this_mpi_process(new_space.grid.communicator()) == 0;
 }
 
 template <int dim>
@@ -242,8 +242,8 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
     }
   is_moving                      = kinematics.moves_bodies();
   const auto           ghosted_u = equilibrium.with_ghosts(u);
-  const auto           summaries = summarise_contact(contact, fields->grid.communicator());
-  auto                 motions   = mean_motions(*fields, bodies, quadrature, kinematics, ghosted_u);
+  const auto           summaries = summarise_contact(contact, space->grid.communicator());
+  auto                 motions   = mean_motions(*space, bodies, quadrature, kinematics, ghosted_u);
   std::vector<double> &values    = history_row;
   values = {record.time, double(record.step), double(record.newton_iterations),
             double(record.attempts), double(record.linear_iterations)};
@@ -327,7 +327,7 @@ Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kine
                            const Vector &ghosted_u)
 {
   if (!body_output)
-    body_output = std::make_unique<BodyOutput<dim>>(*fields, *nodes, bodies);
+    body_output = std::make_unique<BodyOutput<dim>>(*space, *nodes, bodies);
   bool is_written = add_picture(
     record.time, body_output->write(kinematics, ghosted_u, directory, record.step, record.time),
     "bodies.pvd", body_records);
@@ -350,7 +350,7 @@ template <int dim>
 bool
 Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &contact)
 {
-  const MPI_Comm communicator = fields->grid.communicator();
+  const MPI_Comm communicator = space->grid.communicator();
   const bool     is_written   = write_contact_csv(contact, communicator, directory, record.step);
   return add_picture(record.time, write_contact_vtu(contact, communicator, directory, record.step),
                      "contact.pvd", contact_records)
@@ -362,7 +362,7 @@ std::vector<std::vector<double>>
 Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Kinematics<dim> &kinematics,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), *fields, kinematics.bulk(), ghosted_u,
+  return sample(probe, body_index(probe.body), *space, kinematics.bulk(), ghosted_u,
                 !kinematics.moves_bodies());
 }
 
@@ -371,7 +371,7 @@ void
 Results<dim>::require_probes(const Kinematics<dim> &kinematics, const Vector &ghosted_u) const
 {
   for (const auto &probe : probes)
-    sample(probe, body_index(probe.body), *fields, kinematics.bulk(), ghosted_u, true);
+    sample(probe, body_index(probe.body), *space, kinematics.bulk(), ghosted_u, true);
 }
 
 template <int dim>

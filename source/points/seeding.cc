@@ -142,12 +142,12 @@ join_small_parts(const CellPoints<dim> &parts, const double smallest)
 } // namespace
 
 template <int dim>
-PointSeeding<dim>::PointSeeding(const Fields<dim>            &fields,
+PointSeeding<dim>::PointSeeding(const DisplacementSpace<dim> &space,
                                 const LevelSetNodes<dim>     &level_set_nodes,
                                 const std::vector<Body<dim>> &bodies,
                                 const CutQuadrature<dim>     &quadrature,
                                 const std::vector<double>    &density)
-    : fields(fields)
+    : space(space)
     , level_set_nodes(level_set_nodes)
     , bodies(bodies)
     , quadrature(quadrature)
@@ -162,10 +162,10 @@ PointSeeding<dim>::add_cell(MaterialPoints<dim> &points, const unsigned int acti
                             const CellPoints<dim> &cell_points,
                             const unsigned int     n_per_direction) const
 {
-  const unsigned int body    = fields.cells()[active_cell].body;
-  const double       spacing = fields.cell_size(active_cell) / n_per_direction;
+  const unsigned int body    = space.cells()[active_cell].body;
+  const double       spacing = space.cell_size(active_cell) / n_per_direction;
   for (std::size_t q = 0; q < cell_points.points.size(); ++q)
-    points.add(fields.position(active_cell, cell_points.points[q]), body, cell_points.weights[q],
+    points.add(space.position(active_cell, cell_points.points[q]), body, cell_points.weights[q],
                spacing, density[body] * cell_points.weights[q]);
 }
 
@@ -174,7 +174,7 @@ template <int dim>
 CellPoints<dim>
 PointSeeding<dim>::quadrature_points(const unsigned int active_cell) const
 {
-  const ActiveCell &cell = fields.cells()[active_cell];
+  const ActiveCell &cell = space.cells()[active_cell];
   CellPoints<dim>   result;
   if (cell.is_cut)
     {
@@ -185,7 +185,7 @@ PointSeeding<dim>::quadrature_points(const unsigned int active_cell) const
       return result;
     }
   result              = quadrature.whole_cell;
-  const double volume = std::pow(fields.grid.cells()[cell.grid_cell].size, dim);
+  const double volume = std::pow(space.grid.cells()[cell.grid_cell].size, dim);
   for (double &weight : result.weights)
     weight *= volume;
   return result;
@@ -196,8 +196,8 @@ MaterialPoints<dim>
 PointSeeding<dim>::at_quadrature_points(const unsigned int n_internal) const
 {
   MaterialPoints<dim> points(n_internal);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    add_cell(points, a, quadrature_points(a), fields.basis.degree + 1);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    add_cell(points, a, quadrature_points(a), space.basis.degree + 1);
   return points;
 }
 
@@ -207,11 +207,11 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
 {
   Assert(m > 0, ExcMessage("A cell needs a point."));
   MaterialPoints<dim> points(n_internal);
-  CutCellRules<dim>   rules(fields.basis);
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  CutCellRules<dim>   rules(space.basis);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell       = fields.cells()[a];
-      const double      size       = fields.grid.cells()[cell.grid_cell].size;
+      const ActiveCell &cell       = space.cells()[a];
+      const double      size       = space.grid.cells()[cell.grid_cell].size;
       const double      sub_volume = std::pow(size / m, dim);
       CellPoints<dim>   parts;
       if (cell.is_cut)
@@ -221,8 +221,8 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
             continue;
           const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
           parts                  = join_small_parts(
-                             cut.parts.empty() ? sub_cell_parts(rules, fields.basis, cut.scaled.data(), size, m)
-                                               : sub_cell_parts(cut.parts, fields.basis.degree, size, m),
+                             cut.parts.empty() ? sub_cell_parts(rules, space.basis, cut.scaled.data(), size, m)
+                                               : sub_cell_parts(cut.parts, space.basis.degree, size, m),
             0.1 * sub_volume);
           if (parts.points.empty())
             parts = exact;

@@ -18,23 +18,23 @@ constexpr double resolution = 1e-9;
 /** Calls f(body, position, first unknown) for the own nodes; those of several cells repeatedly. */
 template <int dim, typename F>
 void
-for_each_node(const Fields<dim> &fields, const F &f)
+for_each_node(const DisplacementSpace<dim> &space, const F &f)
 {
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-      if (fields.owned().is_element(fields.nodes(a)[i]))
-        f(fields.cells()[a].body, fields.position(a, fields.basis.node(i)), fields.nodes(a)[i]);
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      if (space.owned().is_element(space.nodes(a)[i]))
+        f(space.cells()[a].body, space.position(a, space.basis.node(i)), space.nodes(a)[i]);
 }
 
 /** Calls f(i, unknown) for the own ones of the unknowns without a node. */
 template <int dim, typename F>
 void
-for_each_trailing(const Fields<dim> &fields, const F &f)
+for_each_trailing(const DisplacementSpace<dim> &space, const F &f)
 {
-  for (unsigned int i = 0; i < fields.n_trailing(); ++i)
+  for (unsigned int i = 0; i < space.n_trailing(); ++i)
     {
-      const DofIndex unknown = fields.n_dofs() - fields.n_trailing() + i;
-      if (fields.owned().is_element(unknown))
+      const DofIndex unknown = space.n_dofs() - space.n_trailing() + i;
+      if (space.owned().is_element(unknown))
         f(i, unknown);
     }
 }
@@ -127,14 +127,14 @@ gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredStat
 
 template <int dim>
 void
-gather_fixed(const State<dim> &state, const Fields<dim> &fields, const ContactPoints<dim> &contact,
-             GatheredState<dim> &result)
+gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
+             const ContactPoints<dim> &contact, GatheredState<dim> &result)
 {
-  const MPI_Comm communicator = fields.grid.communicator();
-  const double   length       = resolution * fields.grid.finest_size();
-  const auto     origin       = fields.grid.box().get_boundary_points().first;
+  const MPI_Comm communicator = space.grid.communicator();
+  const double   length       = resolution * space.grid.finest_size();
+  const auto     origin       = space.grid.box().get_boundary_points().first;
   result.nodes                = PlacedValues<dim>(2 * dim, origin, length);
-  for_each_node(fields,
+  for_each_node(space,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
                   std::vector<double> row;
                   for (const auto *vector : {&state.displacement, &state.predictor.rate})
@@ -155,8 +155,8 @@ gather_fixed(const State<dim> &state, const Fields<dim> &fields, const ContactPo
     }
   result.contact.gather(communicator);
 
-  result.trailing.resize(2 * fields.n_trailing());
-  for_each_trailing(fields, [&](const unsigned int i, const DofIndex unknown) {
+  result.trailing.resize(2 * space.n_trailing());
+  for_each_trailing(space, [&](const unsigned int i, const DofIndex unknown) {
     result.trailing[2 * i]     = state.displacement(unknown);
     result.trailing[2 * i + 1] = state.predictor.rate(unknown);
   });
@@ -166,35 +166,35 @@ gather_fixed(const State<dim> &state, const Fields<dim> &fields, const ContactPo
 
 template <int dim>
 GatheredState<dim>
-gather(const State<dim> &state, const Fields<dim> &fields, const ContactPoints<dim> &contact,
-       const bool is_moving)
+gather(const State<dim> &state, const DisplacementSpace<dim> &space,
+       const ContactPoints<dim> &contact, const bool is_moving)
 {
   GatheredState<dim> result;
   result.energies       = state.energies;
   result.last_step_size = state.predictor.step_size;
   if (is_moving)
-    gather_moving(state, fields.grid.communicator(), result);
+    gather_moving(state, space.grid.communicator(), result);
   else
-    gather_fixed(state, fields, contact, result);
+    gather_fixed(state, space, contact, result);
   return result;
 }
 
 template <int dim>
 void
-restore_fixed(const GatheredState<dim> &saved, const Fields<dim> &fields,
+restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &space,
               const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
 {
-  require_consistent(saved.trailing.size() == 2 * fields.n_trailing(), directory);
+  require_consistent(saved.trailing.size() == 2 * space.n_trailing(), directory);
   auto &u = state.displacement, &rate = state.predictor.rate;
   rate = u;
-  for_each_node(fields,
+  for_each_node(space,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
                   const double *row = row_of(saved.nodes, body, x, directory);
                   for (auto *vector : {&u, &rate})
                     for (unsigned int d = 0; d < dim; ++d)
                       (*vector)(first + d) = *row++;
                 });
-  for_each_trailing(fields, [&](const unsigned int i, const DofIndex unknown) {
+  for_each_trailing(space, [&](const unsigned int i, const DofIndex unknown) {
     u(unknown)    = saved.trailing[2 * i];
     rate(unknown) = saved.trailing[2 * i + 1];
   });
@@ -245,12 +245,12 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
   state.has_started = true;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                              \
-  template GatheredState<dim> gather(const State<dim> &, const Fields<dim> &,                               \
-                                     const ContactPoints<dim> &, const bool);                               \
-  template void               restore_fixed(const GatheredState<dim> &, const Fields<dim> &,                \
-                                            const ContactPoints<dim> &, const std::string &, State<dim> &); \
-  template void restore_moving(const GatheredState<dim> &, const dealii::BoundingBox<dim> &,                \
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template GatheredState<dim> gather(const State<dim> &, const DisplacementSpace<dim> &,      \
+                                     const ContactPoints<dim> &, const bool);                 \
+  template void restore_fixed(const GatheredState<dim> &, const DisplacementSpace<dim> &,     \
+                              const ContactPoints<dim> &, const std::string &, State<dim> &); \
+  template void restore_moving(const GatheredState<dim> &, const dealii::BoundingBox<dim> &,  \
                                const MPI_Comm, const std::string &, State<dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -4,11 +4,11 @@ namespace scree
 {
 template <int dim>
 dealii::TrilinosWrappers::MPI::Vector
-zero_displacement(const Fields<dim> &fields)
+zero_displacement(const DisplacementSpace<dim> &space)
 {
-  return dealii::TrilinosWrappers::MPI::Vector(fields.owned(), fields.grid.communicator());
+  return dealii::TrilinosWrappers::MPI::Vector(space.owned(), space.grid.communicator());
 }
 
-template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const Fields<2> &);
-template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const Fields<3> &);
+template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const DisplacementSpace<2> &);
+template dealii::TrilinosWrappers::MPI::Vector zero_displacement(const DisplacementSpace<3> &);
 } // namespace scree

@@ -27,7 +27,7 @@ points_with(const CutBodies<dim> &model, const ContactPairParameters &law)
   for (const auto &[a, b] : model.pairs)
     pairs.push_back({a, b, "pair", law});
   return ContactPoints<dim>(model.bodies, pairs,
-                            level_set_surface(*model.fields, *model.level_set_nodes, model.bodies,
+                            level_set_surface(*model.space, *model.level_set_nodes, model.bodies,
                                               pairs,
                                               CutBodies<dim>::shift * model.grid.finest_size()));
 }

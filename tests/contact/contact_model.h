@@ -27,7 +27,7 @@ contact_points(const CutBodies<dim> &model, const std::string &law = "frictionle
     }
   return ContactPoints<dim>(
     model.bodies, pairs,
-    level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+    level_set_surface(*model.space, *model.level_set_nodes, model.bodies, pairs,
                       CutBodies<dim>::shift * model.grid.finest_size(), prediction));
 }
 
@@ -38,24 +38,24 @@ displacement(const CutBodies<dim> &model, const ContactPoints<dim> &contact,
              const std::function<dealii::Tensor<1, dim>(const unsigned int,
                                                         const dealii::Point<dim> &)> &value)
 {
-  const Fields<dim>                    &fields = *model.fields;
-  dealii::TrilinosWrappers::MPI::Vector owned(fields.owned(), model.grid.communicator());
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  const DisplacementSpace<dim>         &space = *model.space;
+  dealii::TrilinosWrappers::MPI::Vector owned(space.owned(), model.grid.communicator());
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
-      const auto &cell = model.grid.cells()[fields.cells()[a].grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      const auto &cell = model.grid.cells()[space.cells()[a].grid_cell];
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          if (fields.owned().is_element(fields.nodes(a)[i] + d))
-            owned(fields.nodes(a)[i] + d)
-              = value(fields.cells()[a].body,
-                      cell.lower + cell.size * dealii::Tensor<1, dim>(fields.basis.node(i)))[d];
+          if (space.owned().is_element(space.nodes(a)[i] + d))
+            owned(space.nodes(a)[i] + d)
+              = value(space.cells()[a].body,
+                      cell.lower + cell.size * dealii::Tensor<1, dim>(space.basis.node(i)))[d];
     }
   owned.compress(dealii::VectorOperation::insert);
-  dealii::IndexSet relevant = fields.relevant();
+  dealii::IndexSet relevant = space.relevant();
   for (const auto &unknowns : contact.jump_operator().couplings())
     relevant.add_indices(unknowns.begin(), unknowns.end());
   relevant.compress();
-  dealii::TrilinosWrappers::MPI::Vector result(fields.owned(), relevant, model.grid.communicator());
+  dealii::TrilinosWrappers::MPI::Vector result(space.owned(), relevant, model.grid.communicator());
   result = owned;
   return result;
 }

@@ -55,7 +55,7 @@ TEST(ContactPoints, PenaltiesFollowFlow)
 {
   const CutBodies<2>       model(two_half_planes(0.3, 0.02, 2));
   const auto               elastic = contact_points(model);
-  const IndexSet           owned   = model.fields->owned();
+  const IndexSet           owned   = model.space->owned();
   std::vector<ContactPair> pairs   = elastic.pairs();
   for (const double ratio : {1., 0.4, 0.01})
     {
@@ -65,7 +65,7 @@ TEST(ContactPoints, PenaltiesFollowFlow)
       ratios.compress(VectorOperation::insert);
       const ContactPoints<2> contact(
         model.bodies, pairs,
-        level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+        level_set_surface(*model.space, *model.level_set_nodes, model.bodies, pairs,
                           CutBodies<2>::shift * model.grid.finest_size(), {}, nullptr, &ratios));
       ASSERT_EQ(contact.points().size(), elastic.points().size());
       for (unsigned int i = 0; i < contact.points().size(); ++i)

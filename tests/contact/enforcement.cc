@@ -161,7 +161,7 @@ TEST(Enforcement, TangentOfMultipliers)
         }
       ContactPoints<2> contact(
         model.bodies, pairs,
-        level_set_surface(*model.fields, *model.level_set_nodes, model.bodies, pairs,
+        level_set_surface(*model.space, *model.level_set_nodes, model.bodies, pairs,
                           CutBodies<2>::shift * model.grid.finest_size(), {}));
       use_multipliers(contact);
       const auto history = contact.initial_history();

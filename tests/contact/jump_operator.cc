@@ -25,8 +25,8 @@ check_adjoint(const CutBodies<dim> &model, ContactDiscretisation<dim> &&discreti
   ASSERT_GT(n, 8u);
   std::mt19937                           engine(1);
   std::uniform_real_distribution<double> number(-1., 1.);
-  Vector                                 u(model.fields->owned(), MPI_COMM_WORLD);
-  for (const auto i : model.fields->owned())
+  Vector                                 u(model.space->owned(), MPI_COMM_WORLD);
+  for (const auto i : model.space->owned())
     u(i) = number(engine);
   u.compress(VectorOperation::insert);
   std::vector<Tensor<1, dim>> forces(n);
@@ -52,7 +52,7 @@ check_adjoint(const CutBodies<dim> &model, ContactDiscretisation<dim> &&discreti
   f.compress(VectorOperation::add);
   EXPECT_NEAR(f * u, work, 1e-12 * f.l2_norm() * u.l2_norm());
 
-  DynamicSparsityPattern pattern(model.fields->n_dofs());
+  DynamicSparsityPattern pattern(model.space->n_dofs());
   for (const auto &unknowns : B.couplings())
     for (const auto row : unknowns)
       pattern.add_entries(row, unknowns.begin(), unknowns.end());
@@ -87,7 +87,7 @@ TEST(JumpOperator, OfTheLevelSetSurface)
   for (const unsigned int degree : {1, 2})
     {
       const CutBodies<2> model(two_half_planes(0.3, 0.02, degree));
-      check_adjoint(model, level_set_surface(*model.fields, *model.level_set_nodes, model.bodies,
+      check_adjoint(model, level_set_surface(*model.space, *model.level_set_nodes, model.bodies,
                                              one_pair(), 4. * model.grid.finest_size()));
     }
 }
@@ -96,25 +96,25 @@ TEST(JumpOperator, OfTheLevelSetSurface)
 ContactDiscretisation<2>
 grid_nodes(const CutBodies<2> &model)
 {
-  const Fields<2>                         &fields = *model.fields;
+  const DisplacementSpace<2>              &space = *model.space;
   std::map<unsigned int, std::vector<int>> cells; // of the bodies 0 and 1 in a cell of the grid
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
-      auto &of_cell = cells[fields.cells()[a].grid_cell];
+      auto &of_cell = cells[space.cells()[a].grid_cell];
       of_cell.resize(2, -1);
-      of_cell[fields.cells()[a].body] = a;
+      of_cell[space.cells()[a].body] = a;
     }
-  ContactDiscretisation<2>         result{{}, JumpOperator<2>(fields, model.bodies, one_pair())};
+  ContactDiscretisation<2>         result{{}, JumpOperator<2>(space, model.bodies, one_pair())};
   std::map<DofIndex, unsigned int> known;
   for (const auto &[c, of_cell] : cells)
-    for (unsigned int i = 0; i < fields.basis.n_nodes && of_cell[0] >= 0 && of_cell[1] >= 0; ++i)
+    for (unsigned int i = 0; i < space.basis.n_nodes && of_cell[0] >= 0 && of_cell[1] >= 0; ++i)
       {
-        const DofIndex a = fields.nodes(of_cell[0])[i], b = fields.nodes(of_cell[1])[i];
+        const DofIndex a = space.nodes(of_cell[0])[i], b = space.nodes(of_cell[1])[i];
         if (!known.emplace(a, c).second)
           continue;
         const auto     &cell = model.grid.cells()[c];
         ContactPoint<2> point{0,
-                              cell.lower + cell.size * Tensor<1, 2>(fields.basis.node(i)),
+                              cell.lower + cell.size * Tensor<1, 2>(space.basis.node(i)),
                               Tensor<1, 2>({0., 1.}),
                               cell.size,
                               0.,

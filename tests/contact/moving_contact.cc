@@ -301,9 +301,9 @@ template <int dim>
 Vector
 rigid_motion(const CutBodies<dim> &model, const typename RigidPose<dim>::Unknowns &q)
 {
-  Vector u(model.fields->owned(), MPI_COMM_WORLD);
+  Vector u(model.space->owned(), MPI_COMM_WORLD);
   for (unsigned int m = 0; m < q.size(); ++m)
-    u(model.fields->rigid_unknown(1) + m) = q[m];
+    u(model.space->rigid_unknown(1) + m) = q[m];
   u.compress(VectorOperation::insert);
   return u;
 }
@@ -382,7 +382,7 @@ compare_tangent()
   model.bodies[1].pose           = RigidPose<dim>(*ball.rigid, ball.q);
   ContactPoints<dim>     contact = contact_points(model, "stick");
   const auto             history = contact.initial_history();
-  DynamicSparsityPattern pattern(model.fields->n_dofs());
+  DynamicSparsityPattern pattern(model.space->n_dofs());
   for (const auto &unknowns : contact.jump_operator().couplings())
     for (const auto row : unknowns)
       pattern.add_entries(row, unknowns.begin(), unknowns.end());
@@ -392,7 +392,7 @@ compare_tangent()
   std::mt19937                           engine(1);
   std::uniform_real_distribution<double> number(-1., 1.);
   Vector                                 u = rigid_motion(model, ball.q), v(u), Kv(u);
-  for (DofIndex i = 0; i < model.fields->n_dofs(); ++i)
+  for (DofIndex i = 0; i < model.space->n_dofs(); ++i)
     {
       u(i) = u(i) + 1e-3 * number(engine);
       v(i) = number(engine);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <scree/bodies/broad_phase.h>
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 #include <scree/parameters/file.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ struct CutBodies
     for (const auto &body : bodies)
       for (const auto &condition : body.conditions)
         n_multipliers += condition.n_multipliers();
-    fields = std::make_unique<Fields<dim>>(grid, *level_set_nodes, bodies, n_multipliers);
+    space = std::make_unique<DisplacementSpace<dim>>(grid, *level_set_nodes, bodies, n_multipliers);
   }
 
   explicit CutBodies(const std::string &text)
@@ -89,7 +89,7 @@ struct CutBodies
   std::vector<Body<dim>>                             bodies;
   std::vector<std::pair<unsigned int, unsigned int>> pairs;
   std::unique_ptr<LevelSetNodes<dim>>                level_set_nodes;
-  std::unique_ptr<Fields<dim>>                       fields;
+  std::unique_ptr<DisplacementSpace<dim>>            space;
 };
 
 /** Section Grid. */

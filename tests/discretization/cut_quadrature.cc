@@ -25,11 +25,11 @@ template <int dim>
 Measure
 measure(const CutBodies<dim> &model)
 {
-  const CutQuadrature<dim> quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+  const CutQuadrature<dim> quadrature(*model.space, *model.level_set_nodes, model.bodies);
   Measure                  result;
-  for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
     {
-      const auto  &cell = model.fields->cells()[a];
+      const auto  &cell = model.space->cells()[a];
       const double size = model.grid.cells()[cell.grid_cell].size;
       if (!cell.is_cut)
         result.volume += std::pow(size, dim);
@@ -128,11 +128,11 @@ TEST(CutQuadrature, SquareOnGridLines)
                                    + bodies_text({{"square", box_text("-0.5, -0.25", "0.5, 0.75")}}));
       const Point<2>         middle(0., 0.25);
       const double           h = model.grid.finest_size();
-      const CutQuadrature<2> quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+      const CutQuadrature<2> quadrature(*model.space, *model.level_set_nodes, model.bodies);
       double                 sides = 0., corners = 0.;
-      for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+      for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
         {
-          const auto &cell      = model.grid.cells()[model.fields->cells()[a].grid_cell];
+          const auto &cell      = model.grid.cells()[model.space->cells()[a].grid_cell];
           const bool  is_corner = std::min(std::abs(cell.lower[0] + 0.5 * h - middle[0]),
                                            std::abs(cell.lower[1] + 0.5 * h - middle[1]))
                                  > 0.5 - 0.6 * h;

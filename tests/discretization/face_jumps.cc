@@ -28,18 +28,18 @@ cut_ball(const unsigned int degree, const unsigned int finest_level)
 /** The nodal values of a function on both cells of a face. */
 template <int dim>
 Vector<double>
-values(const Fields<dim> &fields, const GhostFace &face,
+values(const DisplacementSpace<dim> &space, const GhostFace &face,
        const std::function<double(const Point<dim> &)> &function)
 {
-  const unsigned int n = fields.basis.n_nodes;
+  const unsigned int n = space.basis.n_nodes;
   Vector<double>     result(2 * n);
   for (unsigned int side = 0; side < 2; ++side)
     {
       const auto &cell
-        = fields.grid.cells()[fields.cells()[side == 0 ? face.cell : face.neighbor].grid_cell];
+        = space.grid.cells()[space.cells()[side == 0 ? face.cell : face.neighbor].grid_cell];
       for (unsigned int i = 0; i < n; ++i)
         result(side * n + i)
-          = function(cell.lower + cell.size * Tensor<1, dim>(fields.basis.node(i)));
+          = function(cell.lower + cell.size * Tensor<1, dim>(space.basis.node(i)));
     }
   return result;
 }
@@ -49,19 +49,19 @@ void
 check_polynomials(const unsigned int degree, const unsigned int finest_level)
 {
   const CutBodies<dim> model(cut_ball<dim>(degree, finest_level));
-  FaceJumps<dim>       face_jumps(*model.fields);
+  FaceJumps<dim>       face_jumps(*model.space);
   unsigned int         n_hanging = 0;
   for (const GhostFace &face : face_jumps.faces())
     {
-      const auto  &here   = model.grid.cells()[model.fields->cells()[face.cell].grid_cell];
-      const auto  &there  = model.grid.cells()[model.fields->cells()[face.neighbor].grid_cell];
+      const auto  &here   = model.grid.cells()[model.space->cells()[face.cell].grid_cell];
+      const auto  &there  = model.grid.cells()[model.space->cells()[face.neighbor].grid_cell];
       const auto   matrix = face_jumps.matrix(face);
       const double size   = here.size;
       EXPECT_LE(here.size, there.size);
-      EXPECT_TRUE(model.fields->cells()[face.cell].is_cut
-                  || model.fields->cells()[face.neighbor].is_cut);
+      EXPECT_TRUE(model.space->cells()[face.cell].is_cut
+                  || model.space->cells()[face.neighbor].is_cut);
       n_hanging += there.size > 1.5 * here.size;
-      const auto     polynomial = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
+      const auto     polynomial = values<dim>(*model.space, face, [&](const Point<dim> &x) {
         const double linear = 0.3 + 1.2 * x[0] - 0.7 * x[1] + 0.4 * x[dim - 1];
         return degree == 1 ? linear : linear + linear * linear + 3. * x[0] * x[1];
       });
@@ -69,7 +69,7 @@ check_polynomials(const unsigned int degree, const unsigned int finest_level)
       matrix.vmult(product, polynomial);
       EXPECT_LE(product.linfty_norm(), 1e-11 * std::pow(size, dim - 2));
       // Other functions are not let through.
-      const auto   other = values<dim>(*model.fields, face, [&](const Point<dim> &x) {
+      const auto   other = values<dim>(*model.space, face, [&](const Point<dim> &x) {
         return std::pow(x[face.face / 2], degree + 1);
       });
       const double value = matrix.matrix_norm_square(other);
@@ -102,9 +102,9 @@ double
 total_length(const CutBodies<2> &model)
 {
   double             sum = 0.;
-  const FaceJumps<2> face_jumps(*model.fields);
+  const FaceJumps<2> face_jumps(*model.space);
   for (const GhostFace &face : face_jumps.faces())
-    sum += model.grid.cells()[model.fields->cells()[face.cell].grid_cell].size;
+    sum += model.grid.cells()[model.space->cells()[face.cell].grid_cell].size;
   return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
 }
 
@@ -113,17 +113,17 @@ double
 expected_length(const CutBodies<2> &model)
 {
   double sum = 0.;
-  for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
     {
-      const auto &active = model.fields->cells()[a];
+      const auto &active = model.space->cells()[a];
       const auto &cell   = model.grid.cells()[active.grid_cell];
       for (const unsigned int f : cell.iterator->face_indices())
         {
           if (cell.iterator->at_boundary(f) || cell.iterator->neighbor(f)->has_children())
             continue;
-          const int n = model.fields->active_cell(
+          const int n = model.space->active_cell(
             model.grid.local_index(*cell.iterator->neighbor(f)), active.body);
-          if (n >= 0 && (active.is_cut || model.fields->cells()[n].is_cut))
+          if (n >= 0 && (active.is_cut || model.space->cells()[n].is_cut))
             sum += cell.iterator->neighbor_is_coarser(f) ? cell.size : 0.5 * cell.size;
         }
     }

@@ -29,11 +29,11 @@ template <int dim>
 Measure<dim>
 measure(const CutBodies<dim> &model)
 {
-  const CutQuadrature<dim> quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+  const CutQuadrature<dim> quadrature(*model.space, *model.level_set_nodes, model.bodies);
   Measure<dim>             result;
-  for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
     {
-      const auto &cell     = model.fields->cells()[a];
+      const auto &cell     = model.space->cells()[a];
       const auto &geometry = model.grid.cells()[cell.grid_cell];
       double      volume   = cell.is_cut ? 0. : std::pow(geometry.size, dim);
       for (unsigned int q = quadrature.bulk.begin[a]; q < quadrature.bulk.begin[a + 1]; ++q)
@@ -277,13 +277,13 @@ TEST(KinkedCuts, FacesOnTheBackgroundBoxBelongToIt)
   // The body fills the box but for a half: its faces there are whole.
   const CutBodies<2> model(grid_text("0, 0", "1, 1", "4, 4", 0) + degree_text(1)
                            + bodies_text({{"body", shape(box("0, 0", "1, 0.5"))}}));
-  CutCellRules<2>    rules(model.fields->basis);
+  CutCellRules<2>    rules(model.space->basis);
   for (unsigned int face = 0; face < 4; ++face)
     {
       double length = 0.;
-      for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+      for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
         {
-          const auto cell = model.fields->cells()[a].grid_cell;
+          const auto cell = model.space->cells()[a].grid_cell;
           if (!model.grid.cells()[cell].iterator->at_boundary(face))
             continue;
           const auto cut = model.level_set_nodes->cut(cell, model.bodies[0]);
@@ -293,7 +293,7 @@ TEST(KinkedCuts, FacesOnTheBackgroundBoxBelongToIt)
         }
       EXPECT_NEAR(length, face < 2 ? 0.5 : face == 2 ? 1. : 0., 1e-12);
     }
-  EXPECT_EQ(model.fields->n_owned_cells(), 8u);
+  EXPECT_EQ(model.space->n_owned_cells(), 8u);
 }
 } // namespace
 } // namespace scree

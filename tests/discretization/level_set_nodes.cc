@@ -89,7 +89,7 @@ double
 perimeter_error(const unsigned int finest_level, const unsigned int degree)
 {
   const CutBodies<2>     model(graded_ball<2>(finest_level, degree));
-  const CutQuadrature<2> quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+  const CutQuadrature<2> quadrature(*model.space, *model.level_set_nodes, model.bodies);
   double                 perimeter = 0.;
   for (const double weight : quadrature.surface.weights)
     perimeter += weight;

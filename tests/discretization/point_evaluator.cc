@@ -41,22 +41,21 @@ gradient(const Point<dim> &x, const unsigned int degree)
 
 template <int dim>
 typename PointEvaluator<dim>::Vector
-interpolated(const Fields<dim> &fields)
+interpolated(const DisplacementSpace<dim> &space)
 {
-  typename PointEvaluator<dim>::Vector u(fields.owned(), fields.relevant(), MPI_COMM_WORLD),
-    owned(fields.owned(), MPI_COMM_WORLD);
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
-      if (const DofIndex node = fields.nodes(a)[i]; fields.owned().is_element(node))
+  typename PointEvaluator<dim>::Vector u(space.owned(), space.relevant(), MPI_COMM_WORLD),
+    owned(space.owned(), MPI_COMM_WORLD);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      if (const DofIndex node = space.nodes(a)[i]; space.owned().is_element(node))
         {
-          const auto value
-            = polynomial(fields.position(a, fields.basis.node(i)), fields.basis.degree);
+          const auto value = polynomial(space.position(a, space.basis.node(i)), space.basis.degree);
           for (unsigned int d = 0; d < dim; ++d)
             owned(node + d) = value[d];
         }
-  for (unsigned int i = 0; i < fields.n_trailing(); ++i)
-    if (const DofIndex index = fields.n_dofs() - fields.n_trailing() + i;
-        fields.owned().is_element(index))
+  for (unsigned int i = 0; i < space.n_trailing(); ++i)
+    if (const DofIndex index = space.n_dofs() - space.n_trailing() + i;
+        space.owned().is_element(index))
       owned(index) = 7. + i;
   owned.compress(VectorOperation::insert);
   u = owned;
@@ -67,29 +66,29 @@ template <int dim>
 void
 check(const CutBodies<dim> &model)
 {
-  const Fields<dim>                     &fields = *model.fields;
-  const unsigned int                     degree = fields.basis.degree;
-  const PointEvaluator<dim>              u(fields, interpolated(fields));
+  const DisplacementSpace<dim>          &space  = *model.space;
+  const unsigned int                     degree = space.basis.degree;
+  const PointEvaluator<dim>              u(space, interpolated(space));
   std::mt19937                           engine(3);
   std::uniform_real_distribution<double> number(0., 1.);
   ShapeValues<dim>                       shape;
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
       PointInCell<dim> point{a, {}};
       for (unsigned int d = 0; d < dim; ++d)
         point.unit_point[d] = number(engine);
-      const Point<dim> x    = fields.position(a, point.unit_point);
+      const Point<dim> x    = space.position(a, point.unit_point);
       const auto       here = u.evaluate(point);
       EXPECT_LE((here.value - polynomial(x, degree)).norm(), 1e-13);
       EXPECT_LE((here.gradient - gradient(x, degree)).norm(), 1e-12);
       EXPECT_LE((u.value(point) - here.value).norm(), 1e-14);
       EXPECT_EQ(u.gradient(point), here.gradient);
-      fields.basis.evaluate_gradients(point.unit_point, shape);
+      space.basis.evaluate_gradients(point.unit_point, shape);
       EXPECT_LE((u.gradient(a, &shape.gradient[0][0]) - here.gradient).norm(), 1e-13);
     }
-  for (unsigned int i = 0; i < fields.n_trailing(); ++i)
-    EXPECT_EQ(u.trailing_value(fields.n_dofs() - fields.n_trailing() + i), 7. + i);
-  PointEvaluator<dim> twice(fields);
+  for (unsigned int i = 0; i < space.n_trailing(); ++i)
+    EXPECT_EQ(u.trailing_value(space.n_dofs() - space.n_trailing() + i), 7. + i);
+  PointEvaluator<dim> twice(space);
   EXPECT_FALSE(twice == u);
   twice += u;
   EXPECT_TRUE(twice == u);

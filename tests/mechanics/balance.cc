@@ -98,17 +98,17 @@ TEST(Balance, FindsTheRotationOfABody)
 {
   EquilibriumModel<2> model(text(2, "frictionless"));
   auto                u = model.state.displacement;
-  for (unsigned int a = 0; a < model.cut.fields->n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < model.cut.space->n_owned_cells(); ++a)
     {
-      const ActiveCell &cell     = model.cut.fields->cells()[a];
+      const ActiveCell &cell     = model.cut.space->cells()[a];
       const auto       &geometry = model.cut.grid.cells()[cell.grid_cell];
       const double      angle    = cell.body == 0 ? 0.01 : -0.02;
-      for (unsigned int i = 0; i < model.cut.fields->basis.n_nodes; ++i)
+      for (unsigned int i = 0; i < model.cut.space->basis.n_nodes; ++i)
         {
           const Point<2> x
-            = geometry.lower + geometry.size * Tensor<1, 2>(model.cut.fields->basis.node(i));
-          u(model.cut.fields->nodes(a)[i])     = 0.3 - angle * x[1];
-          u(model.cut.fields->nodes(a)[i] + 1) = -0.1 + angle * x[0];
+            = geometry.lower + geometry.size * Tensor<1, 2>(model.cut.space->basis.node(i));
+          u(model.cut.space->nodes(a)[i])     = 0.3 - angle * x[1];
+          u(model.cut.space->nodes(a)[i] + 1) = -0.1 + angle * x[0];
         }
     }
   u.compress(VectorOperation::insert);

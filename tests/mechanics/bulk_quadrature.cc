@@ -16,11 +16,11 @@ class DoublePoints : public BulkQuadrature<2>
 {
 public:
   DoublePoints(const StartedStep<2> &step)
-      : BulkQuadrature<2>(*step.cut.fields, step.cut.bodies)
+      : BulkQuadrature<2>(*step.cut.space, step.cut.bodies)
       , start(step.start)
   {
-    const CutCellGauss<2> gauss(*step.cut.fields, step.quadrature, step.cut.bodies, step.start);
-    for (unsigned int a = 0; a < step.cut.fields->n_owned_cells(); ++a)
+    const CutCellGauss<2> gauss(*step.cut.space, step.quadrature, step.cut.bodies, step.start);
+    for (unsigned int a = 0; a < step.cut.space->n_owned_cells(); ++a)
       {
         const CellRule<2> cell = gauss.rule(a);
         begin.push_back(points.size());
@@ -69,14 +69,14 @@ TEST(BulkQuadrature, PointsMayBeOfAnotherKind)
       + bodies_text({{"disc", ball_text("0.01, 0.02", 0.9) + "set Body force = 1; -x\n"}});
   for (const std::string law : {"Hencky", "J2"})
     {
-      const StartedStep<2>     step(text, law, wavy, law == "J2" ? 0.01 : 0.);
-      const Fields<2>         &fields = *step.cut.fields;
-      const DoublePoints       points(step);
-      const IncrementalBulk<2> bulk(fields, step.quadrature, step.cut.bodies, *step.small_cuts,
-                                    points, step.start.displacement_field());
-      const auto               u        = step.equilibrium.at_points(step.random(0.003, 1));
-      auto                     expected = zero_displacement(fields), found = expected;
-      const auto               compare = [&](const double tolerance) {
+      const StartedStep<2>        step(text, law, wavy, law == "J2" ? 0.01 : 0.);
+      const DisplacementSpace<2> &space = *step.cut.space;
+      const DoublePoints          points(step);
+      const IncrementalBulk<2>    bulk(space, step.quadrature, step.cut.bodies, *step.small_cuts,
+                                       points, step.start.displacement_field());
+      const auto                  u        = step.equilibrium.at_points(step.random(0.003, 1));
+      auto                        expected = zero_displacement(space), found = expected;
+      const auto                  compare = [&](const double tolerance) {
         for (auto *vector : {&expected, &found})
           vector->compress(VectorOperation::add);
         EXPECT_GT(expected.l2_norm(), 0.);

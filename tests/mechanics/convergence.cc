@@ -93,7 +93,7 @@ TEST(ConvergenceMPI, EqualsOneProcess)
                                + degree_text(degree) + bodies_text({{"body", angled_body()}})
                                + solver_text(1e-11);
       EquilibriumModel<2> together(text), alone(text, MPI_COMM_SELF);
-      EXPECT_EQ(together.cut.fields->n_dofs(), alone.cut.fields->n_dofs());
+      EXPECT_EQ(together.cut.space->n_dofs(), alone.cut.space->n_dofs());
       const double error = Manufactured<2>::solve(alone);
       EXPECT_NEAR(Manufactured<2>::solve(together), error, 1e-9 * error);
       const auto &energies = together.equilibrium.energies(),

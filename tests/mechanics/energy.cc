@@ -172,17 +172,17 @@ check_resultants(EquilibriumModel<dim> &model, const std::string &body_force)
       size += resultants[i].force.norm();
     }
   const Expression<dim> density(body_force, dim, "body force");
-  const auto           &fields = *model.cut.fields;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  const auto           &space = *model.cut.space;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const auto &cell = model.cut.grid.cells()[fields.cells()[a].grid_cell];
+      const auto &cell = model.cut.grid.cells()[space.cells()[a].grid_cell];
       const auto  add  = [&](const Point<dim> &unit, const double weight) {
         const Point<dim>     x = cell.lower + cell.size * Tensor<1, dim>(unit);
         const Tensor<1, dim> f = weight * density.vector(x, 1.);
         force += f;
         moment += moment_of<dim>(x, f);
       };
-      if (fields.cells()[a].is_cut)
+      if (space.cells()[a].is_cut)
         for (unsigned int q = model.quadrature.bulk.begin[a];
              q < model.quadrature.bulk.begin[a + 1]; ++q)
           add(model.quadrature.bulk.points[q], model.quadrature.bulk.weights[q]);
@@ -193,7 +193,7 @@ check_resultants(EquilibriumModel<dim> &model, const std::string &body_force)
           add(surface.points[q] + 0.5 * width / cell.size * surface.normals[q],
               width * surface.weights[q]);
         }
-      if (!fields.cells()[a].is_cut)
+      if (!space.cells()[a].is_cut)
         for (unsigned int q = 0; q < model.quadrature.whole_cell.points.size(); ++q)
           add(model.quadrature.whole_cell.points[q],
               model.quadrature.whole_cell.weights[q] * std::pow(cell.size, dim));

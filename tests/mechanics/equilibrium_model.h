@@ -54,21 +54,21 @@ struct EquilibriumModel
   explicit EquilibriumModel(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD)
       : input(text)
       , cut(input.bodies, communicator)
-      , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
-      , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
-      , kinematics(*cut.fields, quadrature, cut.bodies, *small_cuts)
+      , quadrature(*cut.space, *cut.level_set_nodes, cut.bodies)
+      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.ghost_penalty))
+      , kinematics(*cut.space, quadrature, cut.bodies, *small_cuts)
       , bulk(kinematics.bulk())
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
+      , boundary_terms(*cut.space, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(cut.bodies, contact_pairs(),
-                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                level_set_surface(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                                   input.contact.shift * cut.grid.finest_size()))
-      , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
-      , linear_solver(input.linear, dim, cut.fields->basis.degree)
+      , equilibrium(*cut.space, cut.bodies, kinematics, boundary_terms, contact)
+      , linear_solver(input.linear, dim, cut.space->basis.degree)
   {
-    state.displacement = zero_displacement(*cut.fields);
+    state.displacement = zero_displacement(*cut.space);
     state.contact      = contact.initial_history();
     linear_solver.set_near_null_space(equilibrium.rigid_motions());
-    linear_solver.set_border(cut.fields->n_trailing());
+    linear_solver.set_border(cut.space->n_trailing());
   }
 
   std::vector<ContactPair> contact_pairs() const
@@ -99,7 +99,7 @@ struct EquilibriumModel
     };
     Vector u = state.displacement;
     equilibrium.set_time(time, u);
-    if (state.time > 0. && cut.fields->n_trailing() > 0)
+    if (state.time > 0. && cut.space->n_trailing() > 0)
       u = linear_prediction<dim>(
         equilibrium, state.contact, state.displacement, u,
         [&](const Vector &b, Vector &x) { hooks.solve(b, b, input.linear.tolerance, x); });
@@ -119,9 +119,9 @@ struct EquilibriumModel
   {
     const auto u     = equilibrium.at_points(state.displacement);
     double     error = 0., norm = 0.;
-    for (unsigned int a = 0; a < cut.fields->n_owned_cells(); ++a)
+    for (unsigned int a = 0; a < cut.space->n_owned_cells(); ++a)
       {
-        const auto &active = cut.fields->cells()[a];
+        const auto &active = cut.space->cells()[a];
         const auto &cell   = cut.grid.cells()[active.grid_cell];
         const auto  add    = [&](const dealii::Point<dim> &unit, const double weight) {
           const auto value

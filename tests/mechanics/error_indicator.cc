@@ -32,20 +32,20 @@ std::pair<double, double>
 errors(EquilibriumModel<2> &model)
 {
   EXPECT_LT(Manufactured<2>::solve(model), 0.1);
-  const auto &fields   = *model.cut.fields;
-  const auto  u        = model.equilibrium.with_ghosts(model.state.displacement);
-  const auto  field    = model.equilibrium.at_points(model.state.displacement);
-  const auto estimated = recovery_errors(fields, model.quadrature, model.cut.bodies, model.bulk, u);
-  double     true_square = 0.;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+  const auto &space     = *model.cut.space;
+  const auto  u         = model.equilibrium.with_ghosts(model.state.displacement);
+  const auto  field     = model.equilibrium.at_points(model.state.displacement);
+  const auto  estimated = recovery_errors(space, model.quadrature, model.cut.bodies, model.bulk, u);
+  double      true_square = 0.;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const auto &cell = model.cut.grid.cells()[fields.cells()[a].grid_cell];
+      const auto &cell = model.cut.grid.cells()[space.cells()[a].grid_cell];
       const auto  add  = [&](const Point<2> &unit, const double weight) {
         const auto difference = exact_strain(cell.lower + cell.size * Tensor<1, 2>(unit))
                                 - model.bulk.sample(a, unit, field).strain;
         true_square += weight * (model.cut.bodies[0].material->stress(difference) * difference);
       };
-      if (fields.cells()[a].is_cut)
+      if (space.cells()[a].is_cut)
         for (unsigned int q = model.quadrature.bulk.begin[a];
              q < model.quadrature.bulk.begin[a + 1]; ++q)
           add(model.quadrature.bulk.points[q], model.quadrature.bulk.weights[q]);

@@ -33,7 +33,7 @@ class LinearIncrement : public TotalKinematics<2>
 {
 public:
   LinearIncrement(const EquilibriumModel<2> &model, const Vector &u_0, const double start_time)
-      : TotalKinematics<2>(*model.cut.fields, model.quadrature, model.cut.bodies, *model.small_cuts)
+      : TotalKinematics<2>(*model.cut.space, model.quadrature, model.cut.bodies, *model.small_cuts)
       , u_0(u_0)
       , field(model.equilibrium.at_points(u_0))
       , start_time(start_time)
@@ -70,8 +70,8 @@ private:
 class NodalSprings : public SmallCutTreatment<2>
 {
 public:
-  explicit NodalSprings(const Fields<2> &fields)
-      : fields(fields)
+  explicit NodalSprings(const DisplacementSpace<2> &space)
+      : space(space)
   {
   }
 
@@ -81,7 +81,7 @@ public:
   }
   void add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) const override
   {
-    for (const DofIndex index : fields.owned())
+    for (const DofIndex index : space.owned())
       matrix.add(index, index, stiffness.of_bodies[0]);
   }
   double energy(const CutStiffness &stiffness, const PointEvaluator<2> &u) const override
@@ -90,7 +90,7 @@ public:
   }
 
 private:
-  const Fields<2> &fields;
+  const DisplacementSpace<2> &space;
 };
 } // namespace
 
@@ -102,13 +102,13 @@ TEST(Kinematics, LinearIncrementsAddUp)
   ASSERT_TRUE(model.step(1.).converged());
   const Vector whole = model.state.displacement;
 
-  const LinearIncrement  kinematics(model, half, 0.5);
-  const Fields<2>       &fields = *model.cut.fields;
-  const BoundaryTerms<2> terms(fields, *model.cut.level_set_nodes, model.quadrature,
-                               model.cut.bodies, kinematics);
-  Equilibrium<2>         equilibrium(fields, model.cut.bodies, kinematics, terms, model.contact);
-  const auto             history = model.contact.initial_history();
-  Vector                 u       = zero_displacement(fields), r(u), du(u);
+  const LinearIncrement       kinematics(model, half, 0.5);
+  const DisplacementSpace<2> &space = *model.cut.space;
+  const BoundaryTerms<2>      terms(space, *model.cut.level_set_nodes, model.quadrature,
+                                    model.cut.bodies, kinematics);
+  Equilibrium<2> equilibrium(space, model.cut.bodies, kinematics, terms, model.contact);
+  const auto     history = model.contact.initial_history();
+  Vector         u       = zero_displacement(space), r(u), du(u);
   equilibrium.set_time(1., u);
   equilibrium.residual(u, history, r);
   model.linear_solver.solve(equilibrium.tangent(), du, r, equilibrium.is_symmetric());
@@ -128,7 +128,7 @@ TEST(Kinematics, TotalStartsFromNothing)
   EXPECT_EQ(kinematics.start_displacement().l2_norm(), 0.);
   EXPECT_TRUE(kinematics.bulk().is_linear());
   const PointInCell<2> point = {0, Point<2>(0.3, 0.8)};
-  EXPECT_EQ(kinematics.reference_position(point), model.cut.fields->position(0, point.unit_point));
+  EXPECT_EQ(kinematics.reference_position(point), model.cut.space->position(0, point.unit_point));
   for (const auto &region : model.boundary_terms.regions())
     for (const auto &p : region.points)
       EXPECT_EQ(p.start_displacement.norm(), 0.);
@@ -137,15 +137,15 @@ TEST(Kinematics, TotalStartsFromNothing)
 TEST(SmallCutTreatment, IsAddedToTheBulk)
 {
   EquilibriumModel<2>          model(driven_block());
-  const Fields<2>             &fields = *model.cut.fields;
-  const NodalSprings           springs(fields);
+  const DisplacementSpace<2>  &space = *model.cut.space;
+  const NodalSprings           springs(space);
   const NoSmallCutTreatment<2> none;
   const auto                   forces = [&](const SmallCutTreatment<2> &treatment) {
-    const TotalKinematics<2> kinematics(fields, model.quadrature, model.cut.bodies, treatment);
-    const BoundaryTerms<2>   terms(fields, *model.cut.level_set_nodes, model.quadrature,
+    const TotalKinematics<2> kinematics(space, model.quadrature, model.cut.bodies, treatment);
+    const BoundaryTerms<2>   terms(space, *model.cut.level_set_nodes, model.quadrature,
                                                      model.cut.bodies, kinematics);
-    Equilibrium<2> equilibrium(fields, model.cut.bodies, kinematics, terms, model.contact);
-    Vector         u = zero_displacement(fields), r(u);
+    Equilibrium<2>           equilibrium(space, model.cut.bodies, kinematics, terms, model.contact);
+    Vector                   u = zero_displacement(space), r(u);
     equilibrium.set_time(0., u);
     u = 1.;
     equilibrium.residual(u, model.contact.initial_history(), r);
@@ -158,8 +158,8 @@ TEST(SmallCutTreatment, IsAddedToTheBulk)
   const double stiffness = 1000. / 1.3 + 300. / (1.3 * 0.4);
   EXPECT_NEAR(change.linfty_norm(), stiffness, 1e-9 * stiffness);
 
-  const TotalKinematics<2> kinematics(fields, model.quadrature, model.cut.bodies, springs);
-  Vector                   ones = zero_displacement(fields);
+  const TotalKinematics<2> kinematics(space, model.quadrature, model.cut.bodies, springs);
+  Vector                   ones = zero_displacement(space);
   ones                          = 1.;
   const auto u                  = model.equilibrium.at_points(ones);
   EXPECT_NEAR(kinematics.bulk().energy_of_small_cuts(u), 0.5 * stiffness, 1e-9 * stiffness);

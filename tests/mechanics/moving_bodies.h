@@ -38,23 +38,23 @@ struct MovingBodies
   /** The increment as a vector with ghosts, hanging nodes distributed. */
   Vector nodal(const Increment<dim> &increment) const
   {
-    const Fields<dim> &fields = *cut.fields;
-    Vector             owned(fields.owned(), communicator);
-    for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
+    const DisplacementSpace<dim> &space = *cut.space;
+    Vector                        owned(space.owned(), communicator);
+    for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
       {
-        const auto &cell = cut.grid.cells()[fields.cells()[a].grid_cell];
-        for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+        const auto &cell = cut.grid.cells()[space.cells()[a].grid_cell];
+        for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
           {
             const dealii::Tensor<1, dim> value
-              = increment(cell.lower + cell.size * dealii::Tensor<1, dim>(fields.basis.node(i)));
+              = increment(cell.lower + cell.size * dealii::Tensor<1, dim>(space.basis.node(i)));
             for (unsigned int d = 0; d < dim; ++d)
-              if (fields.owned().is_element(fields.nodes(a)[i] + d))
-                owned(fields.nodes(a)[i] + d) = value[d];
+              if (space.owned().is_element(space.nodes(a)[i] + d))
+                owned(space.nodes(a)[i] + d) = value[d];
           }
       }
     owned.compress(dealii::VectorOperation::insert);
-    fields.hanging_constraints().distribute(owned);
-    Vector result(fields.owned(), fields.relevant(), communicator);
+    space.hanging_constraints().distribute(owned);
+    Vector result(space.owned(), space.relevant(), communicator);
     result = owned;
     return result;
   }
@@ -69,8 +69,9 @@ struct MovingBodies
                            return dealii::Tensor<1, dim>(x - pulled_back(x));
                          })
                              : du;
-    const auto   motions = move_level_sets(cut.bodies, *cut.fields, du, u, options);
-    cut.fields = std::make_unique<Fields<dim>>(cut.grid, *cut.level_set_nodes, cut.bodies, 0);
+    const auto   motions = move_level_sets(cut.bodies, *cut.space, du, u, options);
+    cut.space
+      = std::make_unique<DisplacementSpace<dim>>(cut.grid, *cut.level_set_nodes, cut.bodies, 0);
     EXPECT_EQ(motions.front().n_unconverged, 0u);
     EXPECT_EQ(motions.front().n_islands, 0u);
     steps.push_back(increment);

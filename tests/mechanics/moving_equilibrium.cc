@@ -129,26 +129,26 @@ TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
     {
       StartedStep<2> plain(loaded_disc(degree), "Hencky",
                            [](const Point<2> &) { return Tensor<1, 2>(); });
-      Vector         field = zero_displacement(*plain.cut.fields);
-      for (unsigned int a = 0; a < plain.cut.fields->n_owned_cells(); ++a)
+      Vector         field = zero_displacement(*plain.cut.space);
+      for (unsigned int a = 0; a < plain.cut.space->n_owned_cells(); ++a)
         {
-          const auto &cell = plain.cut.grid.cells()[plain.cut.fields->cells()[a].grid_cell];
-          for (unsigned int i = 0; i < plain.cut.fields->basis.n_nodes; ++i)
+          const auto &cell = plain.cut.grid.cells()[plain.cut.space->cells()[a].grid_cell];
+          for (unsigned int i = 0; i < plain.cut.space->basis.n_nodes; ++i)
             {
               const auto value
-                = wavy(cell.lower + cell.size * Tensor<1, 2>(plain.cut.fields->basis.node(i)));
+                = wavy(cell.lower + cell.size * Tensor<1, 2>(plain.cut.space->basis.node(i)));
               for (unsigned int d = 0; d < 2; ++d)
-                field(plain.cut.fields->nodes(a)[i] + d) = value[d];
+                field(plain.cut.space->nodes(a)[i] + d) = value[d];
             }
         }
       field.compress(VectorOperation::insert);
       const auto ghosted = plain.equilibrium.at_points(field);
       auto       points  = plain.points;
-      const auto cells   = locate_points(*plain.cut.fields, points);
+      const auto cells   = locate_points(*plain.cut.space, points);
       for (std::size_t p = 0; p < points.size(); ++p)
         points.reference_position[p]
           -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;
-      const Vector fit         = fit_displacement(*plain.cut.fields, points, cells);
+      const Vector fit         = fit_displacement(*plain.cut.space, points, cells);
       const auto   fit_ghosted = plain.equilibrium.at_points(fit);
       double       error = 0., norm = 0.;
       for (std::size_t p = 0; p < points.size(); ++p)
@@ -223,7 +223,7 @@ TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
   for (const std::string law : {"neo-Hookean", "Hencky", "Saint Venant-Kirchhoff", "J2"})
     {
       StartedStep<2> step(loaded_disc(2), law, rotation);
-      const auto     zero    = step.equilibrium.at_points(zero_displacement(*step.cut.fields));
+      const auto     zero    = step.equilibrium.at_points(zero_displacement(*step.cut.space));
       double         largest = 0.;
       for (const auto &point : step.start.material_points())
         largest = std::max(
@@ -241,7 +241,7 @@ TEST(MovingEquilibrium, SecondAttemptTurnsInfinitesimally)
                          + bodies_text({{"disc", ball_text("0.01, 0.02", 0.7)}}),
                        "neo-Hookean", [](const Point<2> &) { return Tensor<1, 2>(); });
   Equilibrium<2> &equilibrium = step.equilibrium;
-  Vector          u           = zero_displacement(*step.cut.fields), r(u);
+  Vector          u           = zero_displacement(*step.cut.space), r(u);
   equilibrium.set_time(1., u);
   const auto                 history = step.contact.initial_history();
   FreeBodies<2>::Coordinates turn    = {0., 0., 0.1}; // the last one: times half the box
@@ -335,13 +335,13 @@ check_edges_of_regions()
   for (unsigned int r = 0; r < 3; ++r)
     {
       const auto         &region = elastic.boundary_terms.regions()[r];
-      std::vector<double> covered(elastic.cut.fields->n_owned_cells(), 0.);
-      set_coverage(*elastic.cut.fields, *elastic.cut.level_set_nodes, elastic.cut.bodies[0], region,
+      std::vector<double> covered(elastic.cut.space->n_owned_cells(), 0.);
+      set_coverage(*elastic.cut.space, *elastic.cut.level_set_nodes, elastic.cut.bodies[0], region,
                    elastic.kinematics, covered);
-      const auto is_outer = outer_edge(*elastic.cut.fields, covered);
+      const auto is_outer = outer_edge(*elastic.cut.space, covered);
       const auto along    = [&](const unsigned int a) {
         return std::lround(
-             2. * (elastic.cut.grid.cells()[elastic.cut.fields->cells()[a].grid_cell].lower[0] + 1.));
+             2. * (elastic.cut.grid.cells()[elastic.cut.space->cells()[a].grid_cell].lower[0] + 1.));
       };
       for (const auto &point : region.points)
         {

@@ -261,7 +261,7 @@ TEST(MovingLevelSets, KeepPiecesAndRemoveIslands)
     for (int j = 2; j < 6; ++j)
       phi({{corner[0] + i, corner[1] + j}}) = -0.3;
   const auto motions
-    = move_level_sets(it.cut.bodies, *it.cut.fields, it.nodal(shift), it.nodal(shift), it.options);
+    = move_level_sets(it.cut.bodies, *it.cut.space, it.nodal(shift), it.nodal(shift), it.options);
   EXPECT_EQ(motions.front().n_islands, 1u);
   std::size_t n_far = 0;
   for (std::size_t i = 0; i < phi.values().size(); ++i)
@@ -334,7 +334,7 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
   const std::clock_t  start = std::clock();
   Lattice<2>          phi   = it.lattice();
   const BodyMotion<2> motion
-    = move_level_sets(it.cut.bodies, *it.cut.fields, du, du, it.options).front();
+    = move_level_sets(it.cut.bodies, *it.cut.space, du, du, it.options).front();
   const double all = seconds_since(start);
 
   NodalVectors<2>   v = motion.increment.values();
@@ -350,7 +350,7 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolve)
   const std::clock_t at_end    = std::clock();
   reinitialise(phi);
   const double   reinitialisation = seconds_since(at_end);
-  const DofIndex n                = it.cut.fields->n_dofs();
+  const DofIndex n                = it.cut.space->n_dofs();
   std::cout << n << " unknowns, " << phi.values().size() << " lattice nodes: " << 1e3 * all
             << " ms, of which extension " << 1e3 * extension << ", advection " << 1e3 * advection
             << ", reinitialisation " << 1e3 * reinitialisation << '\n';
@@ -363,9 +363,9 @@ TEST(ReleaseMovingLevelSets, CostLessThanALinearSolveIn3D)
                         + bodies_text({{"it", ball_text("1, 1, 1", 0.625)}})); // 40 cells across
   const Vector       du    = it.nodal(affine<3>(turn<3>(0.02), Point<3>(1., 1., 1.)));
   const std::clock_t start = std::clock();
-  move_level_sets(it.cut.bodies, *it.cut.fields, du, du, it.options);
+  move_level_sets(it.cut.bodies, *it.cut.space, du, du, it.options);
   const double   all = seconds_since(start);
-  const DofIndex n   = it.cut.fields->n_dofs();
+  const DofIndex n   = it.cut.space->n_dofs();
   std::cout << n << " unknowns, " << it.lattice().values().size() << " lattice nodes: " << 1e3 * all
             << " ms\n";
   EXPECT_LT(all, 1e-5 * n);

@@ -49,7 +49,7 @@ errors(const std::string &body, const unsigned int degree, const std::vector<uns
                                 + solver_text(1e-9, degree == 1 ? "iterative" : "direct"));
       result.push_back(Manufactured<3>::solve(model));
       std::cout << "  " << name << ", Q" << degree << ", h = " << model.cut.grid.finest_size()
-                << ": " << model.cut.fields->n_dofs() << " unknowns, L2 error " << result.back()
+                << ": " << model.cut.space->n_dofs() << " unknowns, L2 error " << result.back()
                 << ", " << model.linear_iterations << " linear iterations";
       if (result.size() > 1)
         std::cout << ", order " << std::log2(result[result.size() - 2] / result.back());
@@ -162,7 +162,7 @@ expect_uniform_pressure(EquilibriumModel<3> &model, const double n_z)
   const MPI_Comm communicator = model.cut.grid.communicator();
   difference                  = dealii::Utilities::MPI::max(difference, communicator);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    std::cout << "  n_z = " << n_z << ": " << model.cut.fields->n_dofs() << " unknowns, "
+    std::cout << "  n_z = " << n_z << ": " << model.cut.space->n_dofs() << " unknowns, "
               << result.iterations << " iterations, largest difference of tractions / stress "
               << difference / stress << "\n";
   EXPECT_NEAR(dealii::Utilities::MPI::sum(area, communicator), 1. / n_z, 1e-8);
@@ -217,7 +217,7 @@ TEST(ReleaseThreeDimensionsMPI, PatchAndOrder)
   const std::string text  = grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", 1, graded_text(0, limit))
                            + bodies_text({{"body", ball()}}) + solver_text(1e-11);
   EquilibriumModel<3> together(text), alone(text, MPI_COMM_SELF);
-  EXPECT_EQ(together.cut.fields->n_dofs(), alone.cut.fields->n_dofs());
+  EXPECT_EQ(together.cut.space->n_dofs(), alone.cut.space->n_dofs());
   const double error = Manufactured<3>::solve(alone);
   EXPECT_NEAR(Manufactured<3>::solve(together), error, 1e-9 * error);
   EXPECT_NEAR(together.equilibrium.energies().strain, alone.equilibrium.energies().strain,

@@ -30,28 +30,28 @@ Vector
 random_state(const EquilibriumModel<dim> &model, const double size, const double angle,
              const unsigned int seed)
 {
-  const auto                            &fields = *model.cut.fields;
-  Vector                                 u(fields.owned(), MPI_COMM_WORLD);
+  const auto                            &space = *model.cut.space;
+  Vector                                 u(space.owned(), MPI_COMM_WORLD);
   std::mt19937                           engine(seed);
   std::uniform_real_distribution<double> number(-1., 1.);
-  for (DofIndex index = 0; index < fields.n_dofs(); ++index)
+  for (DofIndex index = 0; index < space.n_dofs(); ++index)
     {
       const double value = size * number(engine);
-      if (fields.owned().is_element(index))
+      if (space.owned().is_element(index))
         u(index) = value;
     }
   for (unsigned int b = 0; b < model.cut.bodies.size(); ++b)
     if (model.cut.bodies[b].is_rigid())
       for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
         {
-          const DofIndex index = fields.rigid_unknown(b) + m;
-          if (fields.owned().is_element(index))
+          const DofIndex index = space.rigid_unknown(b) + m;
+          if (space.owned().is_element(index))
             u(index) = u(index) + angle * model.cut.bodies[b].rigid->radius / (m - dim + 1.);
         }
   u.compress(VectorOperation::insert);
   model.equilibrium.set_prescribed(u);
-  for (const auto &line : fields.hanging_constraints().get_lines())
-    if (fields.owned().is_element(line.index))
+  for (const auto &line : space.hanging_constraints().get_lines())
+    if (space.owned().is_element(line.index))
       u(line.index) = 0.;
   u.compress(VectorOperation::insert);
   return u;
@@ -76,8 +76,8 @@ compare_tangent(const std::string &text, const double size, const double angle, 
       // The artificial mass is no derivative.
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         {
-          const DofIndex index = model.cut.fields->rigid_unknown(1) + m;
-          if (model.cut.fields->owned().is_element(index))
+          const DofIndex index = model.cut.space->rigid_unknown(1) + m;
+          if (model.cut.space->owned().is_element(index))
             product(index)
               = product(index)
                 - 1e-6 * equilibrium.rigid_bodies().stiffness_scales({1})[0] * v(index);
@@ -319,7 +319,7 @@ TEST(ForceControl, BallIn3D)
       const auto          of_force = by_force.step(1.);
       ASSERT_TRUE(of_force.converged()) << of_force.message;
       const auto found = rigid_state(by_force);
-      std::cout << "  " << by_force.cut.fields->n_dofs() << " unknowns, " << type
+      std::cout << "  " << by_force.cut.space->n_dofs() << " unknowns, " << type
                 << ": Newton iterations " << of_motion.iterations << " by motion, "
                 << of_force.iterations << " by force; linear iterations "
                 << by_motion.linear_iterations << ", " << by_force.linear_iterations
@@ -366,8 +366,8 @@ TEST(FiniteRotation, GluedDiscTurnsARing)
     {
       const double   angle = 0.3 + q * numbers::PI / 6., r = 0.75;
       const Point<2> point(r * std::cos(angle), r * std::sin(angle));
-      const int      cell   = model.cut.fields->nearest_active_cell(point, 0);
-      const auto     sample = model.bulk.sample(cell, model.cut.fields->unit_point(cell, point), u);
+      const int      cell   = model.cut.space->nearest_active_cell(point, 0);
+      const auto     sample = model.bulk.sample(cell, model.cut.space->unit_point(cell, point), u);
       const double   u_r = c_r * (r - b * b / r), u_t = c_t * (r - b * b / r);
       const Tensor<1, 2> exact({u_r * std::cos(angle) - u_t * std::sin(angle),
                                 u_r * std::sin(angle) + u_t * std::cos(angle)});

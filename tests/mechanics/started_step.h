@@ -26,21 +26,21 @@ struct StartedStep
               const Displacement<dim> &displacement, const double plastic_strain = 0.)
       : input(text)
       , cut(input.bodies)
-      , quadrature(*cut.fields, *cut.level_set_nodes, cut.bodies)
+      , quadrature(*cut.space, *cut.level_set_nodes, cut.bodies)
       , points(moved(law, displacement, plastic_strain))
-      , made_start(std::make_unique<const StepStart<dim>>(*cut.fields, quadrature, cut.bodies,
+      , made_start(std::make_unique<const StepStart<dim>>(*cut.space, quadrature, cut.bodies,
                                                           points, parameters))
       , start(*made_start)
-      , small_cuts(make_small_cut_treatment(*cut.fields, input.bodies.ghost_penalty))
+      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.ghost_penalty))
       , kinematics(
-          *cut.fields, quadrature, cut.bodies, *small_cuts, std::move(made_start),
-          std::make_unique<const CutCellGauss<dim>>(*cut.fields, quadrature, cut.bodies, start), 0.)
+          *cut.space, quadrature, cut.bodies, *small_cuts, std::move(made_start),
+          std::make_unique<const CutCellGauss<dim>>(*cut.space, quadrature, cut.bodies, start), 0.)
       , bulk(kinematics.bulk())
-      , boundary_terms(*cut.fields, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
+      , boundary_terms(*cut.space, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(cut.bodies, contact_pairs(),
-                level_set_surface(*cut.fields, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                level_set_surface(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                                   input.contact.shift * cut.grid.finest_size()))
-      , equilibrium(*cut.fields, cut.bodies, kinematics, boundary_terms, contact)
+      , equilibrium(*cut.space, cut.bodies, kinematics, boundary_terms, contact)
   {
   }
 
@@ -64,8 +64,8 @@ struct StartedStep
     const unsigned int        n_internal
       = StepStart<dim>::needs_internal(cut.bodies) ? StepStart<dim>::n_internal : 0;
     MaterialPoints<dim> result
-      = PointSeeding<dim>(*cut.fields, *cut.level_set_nodes, cut.bodies, quadrature, density)
-          .on_sub_grid(cut.fields->basis.degree + 1, n_internal);
+      = PointSeeding<dim>(*cut.space, *cut.level_set_nodes, cut.bodies, quadrature, density)
+          .on_sub_grid(cut.space->basis.degree + 1, n_internal);
     for (std::size_t p = 0; p < result.size(); ++p)
       {
         result.reference_position[p] = result.position[p] - displacement(result.position[p]);
@@ -86,11 +86,11 @@ struct StartedStep
   /** Random increments of the given size at the nodes. */
   Vector random(const double size, const unsigned int seed) const
   {
-    Vector                                 u(cut.fields->owned(), MPI_COMM_WORLD);
+    Vector                                 u(cut.space->owned(), MPI_COMM_WORLD);
     std::mt19937                           engine(seed);
     std::uniform_real_distribution<double> number(-size, size);
-    for (const DofIndex index : cut.fields->owned())
-      u(index) = cut.fields->hanging_constraints().is_constrained(index) ? 0. : number(engine);
+    for (const DofIndex index : cut.space->owned())
+      u(index) = cut.space->hanging_constraints().is_constrained(index) ? 0. : number(engine);
     u.compress(dealii::VectorOperation::insert);
     equilibrium.strong_supports().set_zero(u);
     return u;

@@ -33,15 +33,15 @@ template <int dim>
 Vector
 random_displacement(const EquilibriumModel<dim> &model, const double size, const unsigned int seed)
 {
-  Vector                                 u(model.cut.fields->owned(), MPI_COMM_WORLD);
+  Vector                                 u(model.cut.space->owned(), MPI_COMM_WORLD);
   std::mt19937                           engine(seed);
   std::uniform_real_distribution<double> number(-size, size);
-  for (const DofIndex index : model.cut.fields->owned())
+  for (const DofIndex index : model.cut.space->owned())
     u(index) = number(engine);
   u.compress(VectorOperation::insert);
   model.equilibrium.strong_supports().set_zero(u);
-  for (const auto &line : model.cut.fields->hanging_constraints().get_lines())
-    if (model.cut.fields->owned().is_element(line.index))
+  for (const auto &line : model.cut.space->hanging_constraints().get_lines())
+    if (model.cut.space->owned().is_element(line.index))
       u(line.index) = 0.;
   u.compress(VectorOperation::insert);
   return u;

@@ -37,8 +37,8 @@ stress_error(const std::string &text, const Tensor<2, dim> &gradient)
   const auto compare = [&](const unsigned int a, const Point<dim> &unit_point) {
     largest = std::max(largest, (model.bulk.sample(a, unit_point, u).stress - exact).norm());
   };
-  for (unsigned int a = 0; a < model.cut.fields->n_owned_cells(); ++a)
-    if (model.cut.fields->cells()[a].is_cut)
+  for (unsigned int a = 0; a < model.cut.space->n_owned_cells(); ++a)
+    if (model.cut.space->cells()[a].is_cut)
       for (unsigned int q = model.quadrature.bulk.begin[a]; q < model.quadrature.bulk.begin[a + 1];
            ++q)
         compare(a, model.quadrature.bulk.points[q]);

@@ -66,9 +66,9 @@ collectives_of_tables(const unsigned int n)
   model.contact.evaluate(u, model.state.contact);
   n_collectives = 0;
   EXPECT_EQ(summarise_contact(model.contact, MPI_COMM_WORLD).size(), model.contact.pairs().size());
-  EXPECT_EQ(model.boundary_terms.resultants({*model.cut.fields, u}, 0.).size(), 2 * n * n);
+  EXPECT_EQ(model.boundary_terms.resultants({*model.cut.space, u}, 0.).size(), 2 * n * n);
   EXPECT_EQ(
-    mean_motions<2>(*model.cut.fields, model.cut.bodies, model.quadrature, model.kinematics, u)
+    mean_motions<2>(*model.cut.space, model.cut.bodies, model.quadrature, model.kinematics, u)
       .size(),
     n * n);
   return n_collectives;
@@ -120,19 +120,19 @@ TEST(LongTablesMPI, MotionOfADisc)
   // u = A x + b
   const Tensor<2, 2> A({{-0.1, -0.4}, {0.3, 0.05}});
   const Tensor<1, 2> b({0.02, -0.3});
-  const auto        &fields = *model.cut.fields;
-  auto               u      = model.state.displacement;
-  for (unsigned int a = 0; a < fields.n_owned_cells(); ++a)
-    for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+  const auto        &space = *model.cut.space;
+  auto               u     = model.state.displacement;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
       {
-        const auto        &cell = fields.grid.cells()[fields.cells()[a].grid_cell];
-        const Tensor<1, 2> x    = cell.lower + cell.size * Tensor<1, 2>(fields.basis.node(i));
+        const auto        &cell = space.grid.cells()[space.cells()[a].grid_cell];
+        const Tensor<1, 2> x    = cell.lower + cell.size * Tensor<1, 2>(space.basis.node(i));
         for (unsigned int c = 0; c < 2; ++c)
-          if (fields.owned().is_element(fields.nodes(a)[i] + c))
-            u(fields.nodes(a)[i] + c) = (A * x + b)[c];
+          if (space.owned().is_element(space.nodes(a)[i] + c))
+            u(space.nodes(a)[i] + c) = (A * x + b)[c];
       }
   u.compress(VectorOperation::insert);
-  const auto motion = mean_motions<2>(fields, model.cut.bodies, model.quadrature, model.kinematics,
+  const auto motion = mean_motions<2>(space, model.cut.bodies, model.quadrature, model.kinematics,
                                       model.equilibrium.with_ghosts(u))[0];
   // The polygon that approximates the disc is not quite symmetric.
   const Tensor<1, 2> centroid = motion.position - motion.displacement;

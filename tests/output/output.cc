@@ -189,7 +189,7 @@ TEST(Probes, UniaxialStrain)
   probe.end       = Point<2>(0.5, 0.75);
   probe.n_points  = 5;
   const auto u    = model.equilibrium.with_ghosts(model.state.displacement);
-  const auto rows = sample(probe, 1, *model.cut.fields, model.bulk, u, true);
+  const auto rows = sample(probe, 1, *model.cut.space, model.bulk, u, true);
   ASSERT_EQ(rows.size(), 5u);
   const auto names  = sample_columns<2>();
   const auto column = [&](const std::string &name) {
@@ -208,7 +208,7 @@ TEST(Probes, UniaxialStrain)
       EXPECT_NEAR(rows[i][column("u_y")], -0.01 + eps_yy * (rows[i][1] - 1.), 1e-10);
     }
   probe.start = probe.end = Point<2>(0.5, -0.9);
-  EXPECT_THROW(sample(probe, 1, *model.cut.fields, model.bulk, u, true), UserError);
+  EXPECT_THROW(sample(probe, 1, *model.cut.space, model.bulk, u, true), UserError);
 }
 
 TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
@@ -219,7 +219,7 @@ TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
     + bodies_text(
       {{"disc", ball_text("0, 0", 0.7)
                   + conditions_text({{"held", "set On = surface\nset Value = 0; 0"}})}}));
-  const BodyOutput<2> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
+  const BodyOutput<2> output(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies);
   const std::string   name
     = output.write(model.kinematics, model.equilibrium.with_ghosts(model.state.displacement),
                    directory.path, 0, 0.5);
@@ -241,7 +241,7 @@ volume_of_pieces(const unsigned int level, const unsigned int degree)
   EquilibriumModel<3> model(grid_text("-1, -1, -1", "1, 1, 1", "4, 4, 4", level)
                             + degree_text(degree)
                             + bodies_text({{"ball", ball_text("0.01, 0.02, 0.03", 0.7)}}));
-  const BodyOutput<3> output(*model.cut.fields, *model.cut.level_set_nodes, model.cut.bodies);
+  const BodyOutput<3> output(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies);
   double              volume = 0.;
   for (const auto &piece : output.pieces())
     {

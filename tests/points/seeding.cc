@@ -41,14 +41,14 @@ void
 check_seeding(const unsigned int degree, const std::string &grid)
 {
   const CutBodies<dim>      model(two_balls<dim>(degree, grid));
-  const CutQuadrature<dim>  quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+  const CutQuadrature<dim>  quadrature(*model.space, *model.level_set_nodes, model.bodies);
   const std::vector<double> density = {2., 3.};
-  const PointSeeding<dim>   seeding(*model.fields, *model.level_set_nodes, model.bodies, quadrature,
+  const PointSeeding<dim>   seeding(*model.space, *model.level_set_nodes, model.bodies, quadrature,
                                     density);
-  std::vector<double>       exact(model.fields->n_owned_cells());
+  std::vector<double>       exact(model.space->n_owned_cells());
   for (unsigned int a = 0; a < exact.size(); ++a)
     {
-      const auto &cell = model.fields->cells()[a];
+      const auto &cell = model.space->cells()[a];
       if (!cell.is_cut)
         exact[a] = std::pow(model.grid.cells()[cell.grid_cell].size, dim);
       for (unsigned int q = quadrature.bulk.begin[a]; q < quadrature.bulk.begin[a + 1]; ++q)
@@ -62,12 +62,12 @@ check_seeding(const unsigned int degree, const std::string &grid)
       double              outside = -1.;
       for (std::size_t i = 0; i < points.size(); ++i)
         {
-          const int a = model.fields->nearest_active_cell(points.position[i], points.body[i]);
+          const int a = model.space->nearest_active_cell(points.position[i], points.body[i]);
           ASSERT_GE(a, 0);
           EXPECT_GT(points.initial_volume[i], 0.);
           EXPECT_EQ(points.mass[i], density[points.body[i]] * points.initial_volume[i]);
           volume[a] += points.initial_volume[i];
-          const double h = model.grid.cells()[model.fields->cells()[a].grid_cell].size;
+          const double h = model.grid.cells()[model.space->cells()[a].grid_cell].size;
           const double phi
             = model.bodies[points.body[i]].level_set.value(points.position[i], degree);
           outside = std::max(outside, phi / h);
@@ -75,9 +75,9 @@ check_seeding(const unsigned int degree, const std::string &grid)
       double error = 0., total[2] = {};
       for (unsigned int a = 0; a < exact.size(); ++a)
         {
-          const double h = model.grid.cells()[model.fields->cells()[a].grid_cell].size;
+          const double h = model.grid.cells()[model.space->cells()[a].grid_cell].size;
           error          = std::max(error, std::abs(volume[a] - exact[a]) / std::pow(h, dim));
-          total[model.fields->cells()[a].body] += exact[a];
+          total[model.space->cells()[a].body] += exact[a];
         }
       const auto totals = points.totals(2);
       std::cout << "  " << dim << "D, degree " << degree << ", m = " << m << ": " << points.size()
@@ -108,14 +108,14 @@ void
 check_transfer(const unsigned int degree, const std::string &grid)
 {
   const CutBodies<dim>      model(two_balls<dim>(degree, grid));
-  const CutQuadrature<dim>  quadrature(*model.fields, *model.level_set_nodes, model.bodies);
+  const CutQuadrature<dim>  quadrature(*model.space, *model.level_set_nodes, model.bodies);
   const std::vector<double> density = {1., 1.};
-  const PointSeeding<dim>   seeding(*model.fields, *model.level_set_nodes, model.bodies, quadrature,
+  const PointSeeding<dim>   seeding(*model.space, *model.level_set_nodes, model.bodies, quadrature,
                                     density);
   Targets<dim>              targets;
-  for (unsigned int a = 0; a < model.fields->n_owned_cells(); ++a)
+  for (unsigned int a = 0; a < model.space->n_owned_cells(); ++a)
     {
-      const auto &active = model.fields->cells()[a];
+      const auto &active = model.space->cells()[a];
       const auto &cell   = model.grid.cells()[active.grid_cell];
       const auto  add    = [&](const Point<dim> &unit) {
         targets.position.push_back(cell.lower + cell.size * Tensor<1, dim>(unit));

@@ -2,7 +2,7 @@
 
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/exact_distance.h>
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <array>
 #include <string>
@@ -57,7 +57,7 @@ struct ContactPoint
  */
 template <int dim>
 std::vector<ContactPoint<dim>>
-contact_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+contact_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                 const double shift, const ExactDistances<dim> &distances, const bool nodal_normals);
 } // namespace scree

@@ -49,7 +49,7 @@ public:
   using NodeWeights = std::map<DofIndex, std::pair<double, double>>;
 
   /** Without points. */
-  JumpOperator(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  JumpOperator(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                const std::vector<ContactPair> &pairs);
 
   /** Appends a point; its rigid sides are taken at its feet. */

@@ -29,7 +29,7 @@ namespace scree
  */
 template <int dim>
 ContactDiscretisation<dim>
-level_set_surface(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                   const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                   const double shift, const IncrementPrediction<dim> &prediction = {},
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement = nullptr,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <deal.II/non_matching/quadrature_generator.h>
 
@@ -88,7 +88,7 @@ template <int dim>
 class CutQuadrature
 {
 public:
-  CutQuadrature(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+  CutQuadrature(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                 const std::vector<Body<dim>> &bodies);
 
   /** Bulk points of owned active cell i; none if the cell is not cut. */

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -27,7 +27,7 @@ template <int dim>
 class FaceJumps
 {
 public:
-  explicit FaceJumps(const Fields<dim> &fields);
+  explicit FaceJumps(const DisplacementSpace<dim> &space);
 
   /** The faces that this process integrates, each once over all processes. */
   const std::vector<GhostFace> &faces() const
@@ -54,8 +54,8 @@ private:
                                          const dealii::Tensor<1, dim> &offset,
                                          const double                  ratio) const;
 
-  const Fields<dim>     &fields;
-  std::vector<GhostFace> ghost_faces;
+  const DisplacementSpace<dim> &space;
+  std::vector<GhostFace>        ghost_faces;
   /** Matrices for unit cell edge by (face, position in a coarser neighbour). */
   mutable std::map<std::pair<unsigned int, unsigned int>, dealii::FullMatrix<double>> unit_matrices;
 };

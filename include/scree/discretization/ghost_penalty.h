@@ -17,7 +17,7 @@ public:
   using typename SmallCutTreatment<dim>::Matrix;
 
   /** @param factor gamma */
-  GhostPenalty(const Fields<dim> &fields, const double factor);
+  GhostPenalty(const DisplacementSpace<dim> &space, const double factor);
 
   std::vector<std::vector<DofIndex>> couplings() const override;
 
@@ -29,8 +29,8 @@ private:
   /** gamma E rho of a face. */
   double factor_of(const GhostFace &face, const CutStiffness &stiffness) const;
 
-  const Fields<dim>   &fields;
-  const double         gamma;
-  const FaceJumps<dim> jumps;
+  const DisplacementSpace<dim> &space;
+  const double                  gamma;
+  const FaceJumps<dim>          jumps;
 };
 } // namespace scree

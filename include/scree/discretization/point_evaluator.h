@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -28,10 +28,10 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /** u = 0. */
-  explicit PointEvaluator(const Fields<dim> &fields);
+  explicit PointEvaluator(const DisplacementSpace<dim> &space);
 
   /** @param u ghosted, with the values of hanging nodes [L] */
-  PointEvaluator(const Fields<dim> &fields, const Vector &u);
+  PointEvaluator(const DisplacementSpace<dim> &space, const Vector &u);
 
   /** Takes the values of another ghosted vector. */
   void gather(const Vector &u);
@@ -44,13 +44,13 @@ public:
   /** u_a of the nodes of an active cell, component by component of node after node [L]. */
   const double *nodal_values(const unsigned int active_cell) const
   {
-    return &values[std::size_t(active_cell) * fields->basis.n_nodes * dim];
+    return &values[std::size_t(active_cell) * space->basis.n_nodes * dim];
   }
 
   /** An unknown that belongs to no node, by its global number. */
   double trailing_value(const DofIndex index) const
   {
-    return trailing[index - (fields->n_dofs() - fields->n_trailing())];
+    return trailing[index - (space->n_dofs() - space->n_trailing())];
   }
 
   /** u [L]. */
@@ -73,16 +73,16 @@ public:
   {
     const double *nodal            = nodal_values(active_cell);
     double        result[dim][dim] = {};
-    for (unsigned int a = 0; a < fields->basis.n_nodes; ++a)
+    for (unsigned int a = 0; a < space->basis.n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           result[i][j] += nodal[a * dim + i] * unit_gradients[a * dim + j];
-    return dealii::Tensor<2, dim>(result) / fields->cell_size(active_cell);
+    return dealii::Tensor<2, dim>(result) / space->cell_size(active_cell);
   }
 
 private:
-  const Fields<dim>  *fields;
-  std::vector<double> values;   //!< cell after cell
-  std::vector<double> trailing; //!< of the unknowns that belong to no node
+  const DisplacementSpace<dim> *space;
+  std::vector<double>           values;   //!< cell after cell
+  std::vector<double>           trailing; //!< of the unknowns that belong to no node
 };
 } // namespace scree

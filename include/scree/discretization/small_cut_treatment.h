@@ -53,5 +53,5 @@ public:
 /** A GhostPenalty; none if its factor is zero. */
 template <int dim>
 std::unique_ptr<const SmallCutTreatment<dim>>
-make_small_cut_treatment(const Fields<dim> &fields, const double ghost_penalty_factor);
+make_small_cut_treatment(const DisplacementSpace<dim> &space, const double ghost_penalty_factor);
 } // namespace scree

@@ -12,7 +12,7 @@ namespace scree
  * quadrature points would not do: at degree 1 a cell has two.
  */
 template <int dim>
-void set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+void set_coverage(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                   const Body<dim> &body, const BoundaryRegion<dim> &region,
                   const Kinematics<dim> &kinematics, std::vector<double> &coverage);
 
@@ -24,5 +24,6 @@ void set_coverage(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set
  * So a region narrower than half a cell, which has no such K', keeps all its cells.
  */
 template <int dim>
-std::vector<bool> outer_edge(const Fields<dim> &fields, const std::vector<double> &coverage);
+std::vector<bool> outer_edge(const DisplacementSpace<dim> &space,
+                             const std::vector<double>    &coverage);
 } // namespace scree

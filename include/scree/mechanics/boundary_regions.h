@@ -63,8 +63,9 @@ double squared_arm(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &
  * @throws UserError if a region selects nothing
  */
 template <int dim>
-std::vector<BoundaryRegion<dim>>
-find_boundary_regions(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
-                      const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
-                      const Kinematics<dim> &kinematics);
+std::vector<BoundaryRegion<dim>> find_boundary_regions(const DisplacementSpace<dim> &space,
+                                                       const LevelSetNodes<dim> &level_set_nodes,
+                                                       const CutQuadrature<dim> &quadrature,
+                                                       const std::vector<Body<dim>> &bodies,
+                                                       const Kinematics<dim>        &kinematics);
 } // namespace scree

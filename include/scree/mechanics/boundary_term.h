@@ -15,7 +15,7 @@ namespace scree
 template <int dim>
 struct BoundarySetting
 {
-  const Fields<dim>                      &fields;
+  const DisplacementSpace<dim>           &space;
   const std::vector<Body<dim>>           &bodies;
   const Kinematics<dim>                  &kinematics;
   const std::vector<BoundaryRegion<dim>> &regions; //!< of all terms
@@ -91,7 +91,7 @@ protected:
                    dealii::FullMatrix<double>   &block) const;
 
   const BoundarySetting<dim>      setting;
-  const Fields<dim>              &fields;
+  const DisplacementSpace<dim>   &space;
   const std::vector<unsigned int> own_regions;
 };
 

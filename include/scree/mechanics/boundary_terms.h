@@ -21,7 +21,7 @@ public:
    * @param kinematics of these bodies: stresses are those of its bulk
    * @throws UserError if a region selects nothing
    */
-  BoundaryTerms(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+  BoundaryTerms(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                 const CutQuadrature<dim> &quadrature, const std::vector<Body<dim>> &bodies,
                 const Kinematics<dim> &kinematics);
 
@@ -81,7 +81,7 @@ public:
   double energy(const PointEvaluator<dim> &u, const double time) const;
 
 private:
-  const Fields<dim>                              &fields;
+  const DisplacementSpace<dim>                   &space;
   const std::vector<Body<dim>>                   &bodies;
   std::vector<BoundaryRegion<dim>>                boundary_regions;
   std::vector<std::unique_ptr<BoundaryTerm<dim>>> terms;

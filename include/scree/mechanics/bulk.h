@@ -37,7 +37,7 @@ public:
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
   /** @param projected_shares of bodies, of a volume change that is replaced by its projection */
-  Bulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  Bulk(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
        const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
        const std::vector<double> &projected_shares);
 
@@ -118,7 +118,7 @@ protected:
   virtual void set_reference_volumes(const unsigned int   active_cell,
                                      std::vector<double> &volumes) const;
 
-  const Fields<dim>             &fields;
+  const DisplacementSpace<dim>  &space;
   const CutQuadrature<dim>      &quadrature;
   const std::vector<Body<dim>>  &bodies;
   const std::vector<double>      projected_shares;

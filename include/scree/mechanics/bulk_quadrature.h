@@ -20,7 +20,7 @@ template <int dim>
 class BulkQuadrature
 {
 public:
-  BulkQuadrature(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+  BulkQuadrature(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies);
   virtual ~BulkQuadrature() = default;
 
   /** Of an owned active cell, all of one configuration: that of the start of the step. */
@@ -80,7 +80,7 @@ protected:
   /** Sets up the tables, for constructors (collective). */
   void tabulate();
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
 
 private:

@@ -15,6 +15,6 @@ namespace scree
  */
 template <int dim>
 std::vector<dealii::Tensor<1, dim>>
-mean_displacements(const Fields<dim> &fields, const BoundaryTerms<dim> &terms,
+mean_displacements(const DisplacementSpace<dim> &space, const BoundaryTerms<dim> &terms,
                    const StrongSupports<dim> &supports, const PointEvaluator<dim> &u);
 } // namespace scree

@@ -11,7 +11,7 @@ class CutCellGauss : public BulkQuadrature<dim>
 {
 public:
   /** Collective. */
-  CutCellGauss(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  CutCellGauss(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                const std::vector<Body<dim>> &bodies, const StepStart<dim> &start);
 
   CellRule<dim> rule(const unsigned int active_cell) const override;

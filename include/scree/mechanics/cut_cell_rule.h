@@ -7,6 +7,6 @@ namespace scree
 {
 /** The rule of an owned active cell in the cut quadrature. */
 template <int dim>
-CellRule<dim> cut_cell_rule(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
-                            const unsigned int active_cell);
+CellRule<dim> cut_cell_rule(const DisplacementSpace<dim> &space,
+                            const CutQuadrature<dim> &quadrature, const unsigned int active_cell);
 } // namespace scree

@@ -80,7 +80,7 @@ public:
   const std::vector<Body<dim>>                       &bodies;
   const std::vector<ContactPair>                     &pairs;
   const LevelSetNodes<dim>                            level_set_nodes;
-  const Fields<dim>                                   fields;
+  const DisplacementSpace<dim>                        space;
   const CutQuadrature<dim>                            quadrature;
   const std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
   const std::unique_ptr<const Kinematics<dim>>        kinematics;

@@ -37,7 +37,7 @@ class EnergyLedger
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  EnergyLedger(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  EnergyLedger(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
                const ContactPoints<dim> &contact, const StrongSupports<dim> &supports,
                const RigidBodies<dim> &rigid);
@@ -102,7 +102,7 @@ private:
   /** Returns the plastic dissipation since the start of the step. */
   double store_energies(const EvaluatedState<dim> &state);
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   const Kinematics<dim>        &kinematics;
   const BoundaryTerms<dim>     &boundary_terms;

@@ -31,7 +31,7 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  Equilibrium(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  Equilibrium(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
               const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
               ContactPoints<dim> &contact);
 
@@ -205,7 +205,7 @@ private:
   /** Sets the time and what is prescribed there in `u`, takes it as accepted; returns r(u). */
   Vector take_as_accepted(const double time, const ContactHistory<dim> &history, Vector &u);
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   const Bulk<dim>              &bulk;
   const BoundaryTerms<dim>     &boundary_terms;

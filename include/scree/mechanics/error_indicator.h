@@ -20,7 +20,8 @@ namespace scree
  * @param u ghosted displacement
  */
 template <int dim>
-std::vector<double> recovery_errors(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+std::vector<double> recovery_errors(const DisplacementSpace<dim> &space,
+                                    const CutQuadrature<dim>     &quadrature,
                                     const std::vector<Body<dim>> &bodies, const Bulk<dim> &bulk,
                                     const dealii::TrilinosWrappers::MPI::Vector &u);
 

@@ -13,7 +13,7 @@ namespace scree
  * whole, and the region would be wider by half a cell on average (collective).
  */
 template <int dim>
-void release_edges(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+void release_edges(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                    const std::vector<Body<dim>> &bodies, const Kinematics<dim> &kinematics,
                    std::vector<BoundaryRegion<dim>> &regions);
 

@@ -55,7 +55,7 @@ public:
     double      factor = 1.; //!< they were scaled by
   };
 
-  FreeBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  FreeBodies(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
              const StrongSupports<dim> &supports, const BoundaryTerms<dim> &boundary_terms,
              const ContactPoints<dim> &contact, const bool turns_finitely);
 
@@ -170,7 +170,7 @@ private:
   /** Sums of m(x) m(x)^T over the supports of all bodies. */
   std::vector<dealii::FullMatrix<double>>
        resistance_of_supports(const std::vector<Motions> &motions) const;
-  void find_unknowns(const Fields<dim> &fields);
+  void find_unknowns(const DisplacementSpace<dim> &space);
   void find_couplings();
   /** What coordinate k of a free body does to a position. */
   dealii::Tensor<1, dim> motion(const unsigned int free_body, const unsigned int k,

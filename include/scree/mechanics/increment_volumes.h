@@ -19,7 +19,7 @@ class IncrementVolumes
 {
 public:
   /** @param shares of bodies, of a volume change that is replaced by its projection */
-  IncrementVolumes(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  IncrementVolumes(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                    const BulkQuadrature<dim> &quadrature, const std::vector<double> &shares);
 
   static constexpr unsigned int n_max = VolumeModes<dim>::n_max;
@@ -97,7 +97,7 @@ private:
   /** Elastic laws: r gives the energy of lambda (projected tr eps)^2/2 + mu eps : eps. */
   double exponent(const unsigned int body) const;
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   const BulkQuadrature<dim>    &quadrature;
   const std::vector<double>     shares;

@@ -27,7 +27,7 @@ public:
    * @param points where the laws are asked
    * @param u_n    at the start of the step
    */
-  IncrementalBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  IncrementalBulk(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                   const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts,
                   const BulkQuadrature<dim> &points, const PointEvaluator<dim> &u_n);
 
@@ -77,7 +77,7 @@ private:
   void           ask(const unsigned int active_cell, CellIncrement &cell) const;
 
   using Bulk<dim>::bodies;
-  using Bulk<dim>::fields;
+  using Bulk<dim>::space;
   using Bulk<dim>::projected_shares;
 
   const BulkQuadrature<dim>  &points;

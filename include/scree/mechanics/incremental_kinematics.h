@@ -23,7 +23,7 @@ public:
    * @param start  of the step: u_n
    * @param points where the laws are asked, with the histories
    */
-  IncrementalKinematics(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  IncrementalKinematics(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                         const std::vector<Body<dim>>              &bodies,
                         const SmallCutTreatment<dim>              &small_cuts,
                         std::unique_ptr<const StepStart<dim>>      start,
@@ -74,7 +74,7 @@ public:
   MovingLeastSquaresReport transfer_report() const override;
 
 private:
-  const Fields<dim>                               &fields;
+  const DisplacementSpace<dim>                    &space;
   const std::unique_ptr<const StepStart<dim>>      start;
   const std::unique_ptr<const BulkQuadrature<dim>> points;
   IncrementalBulk<dim>                             incremental_bulk;

@@ -61,7 +61,7 @@ private:
 
   using BoundaryTerm<dim>::own_regions;
   using PrescribedDisplacements<dim>::bodies;
-  using PrescribedDisplacements<dim>::fields;
+  using PrescribedDisplacements<dim>::space;
   const IncrementalBulk<dim>              &bulk;
   std::vector<unsigned int>                nitsche_regions; //!< of the own ones
   std::vector<std::vector<IncrementStart>> starts;          //!< [region][q]

@@ -15,7 +15,7 @@ public:
   using typename Bulk<dim>::Matrix;
   using typename Bulk<dim>::Work;
 
-  LinearBulk(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  LinearBulk(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
              const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts);
 
   void add_to_matrix(Matrix &matrix) const override;
@@ -37,6 +37,6 @@ private:
                                dealii::FullMatrix<double> &matrix) const;
 
   using Bulk<dim>::bodies;
-  using Bulk<dim>::fields;
+  using Bulk<dim>::space;
 };
 } // namespace scree

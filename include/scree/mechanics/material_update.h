@@ -10,7 +10,7 @@ namespace scree
  */
 template <int dim>
 MaterialPoints<dim>
-seed_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
             const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
             const MovingGeometryParameters &parameters);
 
@@ -19,8 +19,8 @@ seed_points(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes
  * finer than they were made for (collective).
  */
 template <int dim>
-void distribute_points(const Fields<dim> &fields, const MovingGeometryParameters &parameters,
-                       MaterialPoints<dim> &points);
+void distribute_points(const DisplacementSpace<dim>   &space,
+                       const MovingGeometryParameters &parameters, MaterialPoints<dim> &points);
 
 /**
  * The material points after an increment u, with the laws' answers to F_D = I + grad u, projected

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 #include <scree/level_set/extended_increment.h>
 
 #include <deal.II/lac/trilinos_vector.h>
@@ -55,7 +55,7 @@ void require_movable(const std::vector<Body<dim>> &bodies);
  */
 template <int dim>
 std::vector<BodyMotion<dim>>
-move_level_sets(std::vector<Body<dim>> &bodies, const Fields<dim> &fields,
+move_level_sets(std::vector<Body<dim>> &bodies, const DisplacementSpace<dim> &space,
                 const dealii::TrilinosWrappers::MPI::Vector &du,
                 const dealii::TrilinosWrappers::MPI::Vector &displacement,
                 const LevelSetMotion                        &options);

@@ -30,7 +30,7 @@ private:
   /** Share of the whole that acts at points. */
   double pointwise_share(const BoundaryRegion<dim> &region, const unsigned int q) const;
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   const Bulk<dim>              &bulk;
 };

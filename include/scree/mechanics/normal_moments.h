@@ -48,7 +48,7 @@ private:
                                           const double time) const;
   std::vector<DofIndex> unknowns(const CellMoments &moments) const;
 
-  const Fields<dim>                      &fields;
+  const DisplacementSpace<dim>           &space;
   const std::vector<BoundaryRegion<dim>> &regions;
   const PrescribedValues<dim>            &prescribed;
   std::vector<CellMoments>                of_cells;

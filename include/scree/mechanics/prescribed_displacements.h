@@ -49,7 +49,7 @@ protected:
   void stress_vectors(const BoundaryRegion<dim> &region, const BoundaryPoint<dim> &point,
                       ShapeValues<dim> &shape, std::vector<dealii::Tensor<1, dim>> &vectors) const;
 
-  using BoundaryTerm<dim>::fields;
+  using BoundaryTerm<dim>::space;
   using BoundaryTerm<dim>::own_regions;
   using BoundaryTerm<dim>::setting;
   const std::vector<Body<dim>> &bodies;

@@ -16,7 +16,7 @@ class ProjectedDivergence
 {
 public:
   /** @param is_projected by body; collective */
-  ProjectedDivergence(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  ProjectedDivergence(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                       const std::vector<bool> &is_projected);
 
   /** Its coefficients at a point of a projected body: of the unknowns of the cell, component by
@@ -30,7 +30,7 @@ private:
   /** int f_j div u of a cell, and the factor of these rows. */
   std::pair<const double *, double> rows_of(const unsigned int active_cell) const;
 
-  const Fields<dim> &fields;
+  const DisplacementSpace<dim> &space;
   /** int f_j div u of cut active cells, as far as projected on the functions of VolumeModes. */
   std::vector<double>      rows;
   std::vector<std::size_t> first_row;  //!< of each active cell
@@ -39,5 +39,6 @@ private:
 
 /** Sends a list of numbers of every active cell of the owners to their ghosts (collective). */
 template <int dim>
-void exchange_to_ghosts(const Fields<dim> &fields, std::vector<std::vector<double>> &of_cells);
+void exchange_to_ghosts(const DisplacementSpace<dim>     &space,
+                        std::vector<std::vector<double>> &of_cells);
 } // namespace scree

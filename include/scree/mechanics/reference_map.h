@@ -14,8 +14,8 @@ namespace scree
  * than a cell from all active cells of its body.
  */
 template <int dim>
-std::vector<PointInCell<dim>> locate_points(const Fields<dim>         &fields,
-                                            const MaterialPoints<dim> &points);
+std::vector<PointInCell<dim>> locate_points(const DisplacementSpace<dim> &space,
+                                            const MaterialPoints<dim>    &points);
 
 /**
  * The displacement u = x - X of the bodies as a finite element field: the minimum of
@@ -33,6 +33,6 @@ std::vector<PointInCell<dim>> locate_points(const Fields<dim>         &fields,
  */
 template <int dim>
 dealii::TrilinosWrappers::MPI::Vector
-fit_displacement(const Fields<dim> &fields, const MaterialPoints<dim> &points,
+fit_displacement(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points,
                  const std::vector<PointInCell<dim>> &locations);
 } // namespace scree

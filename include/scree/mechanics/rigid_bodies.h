@@ -30,7 +30,7 @@ class RigidBodies
 public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  RigidBodies(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  RigidBodies(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
               const ContactPoints<dim> &contact);
 
   /** Prescribed components, on the process that owns them. */
@@ -81,12 +81,12 @@ private:
   {
     for (const unsigned int b : rigid_bodies)
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (fields.owned().is_element(fields.rigid_unknown(b) + m))
-          f(*bodies[b].rigid, m, fields.rigid_unknown(b) + m);
+        if (space.owned().is_element(space.rigid_unknown(b) + m))
+          f(*bodies[b].rigid, m, space.rigid_unknown(b) + m);
   }
   dealii::Tensor<1, 3> applied_moment(const unsigned int body, const double time) const;
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   const ContactPoints<dim>     &contact;
   std::vector<unsigned int>     rigid_bodies;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -137,5 +137,5 @@ tangents_of(const dealii::Tensor<1, dim> &n)
  */
 template <int dim>
 std::vector<dealii::TrilinosWrappers::MPI::Vector>
-near_null_space(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies);
+near_null_space(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies);
 } // namespace scree

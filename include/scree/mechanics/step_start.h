@@ -25,7 +25,7 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /** Collective. Points are those of the owned cells. */
-  StepStart(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  StepStart(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
             const std::vector<Body<dim>> &bodies, const MaterialPoints<dim> &points,
             const MovingGeometryParameters &parameters);
 
@@ -105,7 +105,7 @@ private:
   void set_internal(const PointInCell<dim> &point, const double *internal,
                     PointHistory<dim> &history) const;
 
-  const Fields<dim>              &fields;
+  const DisplacementSpace<dim>   &space;
   const std::vector<Body<dim>>   &bodies;
   const MaterialPoints<dim>      &own_points;
   const MovingGeometryParameters &parameters;

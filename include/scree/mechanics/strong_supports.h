@@ -31,7 +31,7 @@ public:
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   /** @throws UserError if a condition selects nothing or two conditions contradict each other */
-  StrongSupports(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+  StrongSupports(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                  const Kinematics<dim> &kinematics);
 
   /** Body and condition of each support. */
@@ -62,7 +62,7 @@ private:
   };
   /** Adds what a support prescribes in a cell of its body; the first support of an unknown counts.
    */
-  void select(const Fields<dim> &fields, const unsigned int a, const unsigned int support,
+  void select(const DisplacementSpace<dim> &space, const unsigned int a, const unsigned int support,
               Selection &selection, std::map<DofIndex, PrescribedUnknown<dim>> &found) const;
   void require_selections(const std::vector<Body<dim>> &bodies,
                           std::vector<Selection>       &selections) const;

@@ -24,7 +24,7 @@ public:
    * @param n_contact_points of this process
    */
   SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
-               const Fields<dim> &fields, Equilibrium<dim> &equilibrium,
+               const DisplacementSpace<dim> &space, Equilibrium<dim> &equilibrium,
                const std::size_t n_contact_points, Timings &timings);
 
   /**

@@ -15,7 +15,7 @@ class TotalKinematics : public Kinematics<dim>
 public:
   using typename Kinematics<dim>::Vector;
 
-  TotalKinematics(const Fields<dim> &fields, const CutQuadrature<dim> &quadrature,
+  TotalKinematics(const DisplacementSpace<dim> &space, const CutQuadrature<dim> &quadrature,
                   const std::vector<Body<dim>> &bodies, const SmallCutTreatment<dim> &small_cuts);
 
   const Bulk<dim> &bulk() const override;
@@ -60,8 +60,8 @@ public:
   MovingLeastSquaresReport transfer_report() const override;
 
 private:
-  const Fields<dim> &fields;
-  LinearBulk<dim>    linear_bulk;
-  Vector             zero;
+  const DisplacementSpace<dim> &space;
+  LinearBulk<dim>               linear_bulk;
+  Vector                        zero;
 };
 } // namespace scree

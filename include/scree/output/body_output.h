@@ -19,7 +19,7 @@ template <int dim>
 class BodyOutput
 {
 public:
-  BodyOutput(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+  BodyOutput(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
              const std::vector<Body<dim>> &bodies);
 
   /** Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted. */
@@ -59,7 +59,7 @@ private:
   void cut_rigid_cell(const unsigned int body, const std::vector<dealii::Point<dim>> &corners,
                       const std::vector<double> &phi, std::vector<RigidPiece> &pieces) const;
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
   std::vector<Piece>            body_pieces;
 };

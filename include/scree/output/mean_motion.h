@@ -23,7 +23,7 @@ struct MeanMotion
  */
 template <int dim>
 std::vector<MeanMotion<dim>>
-mean_motions(const Fields<dim> &fields, const std::vector<Body<dim>> &bodies,
+mean_motions(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
              const CutQuadrature<dim> &quadrature, const Kinematics<dim> &kinematics,
              const dealii::TrilinosWrappers::MPI::Vector &u);
 

@@ -33,7 +33,7 @@ std::vector<std::string> sample_columns();
  */
 template <int dim>
 std::vector<std::vector<double>> sample(const ProbeParameters<dim> &probe, const unsigned int body,
-                                        const Fields<dim> &fields, const Bulk<dim> &bulk,
+                                        const DisplacementSpace<dim> &space, const Bulk<dim> &bulk,
                                         const dealii::TrilinosWrappers::MPI::Vector &u,
                                         const bool                                   must_exist);
 } // namespace scree

@@ -74,7 +74,8 @@ public:
           const std::vector<ProbeParameters<dim>> &probes, const bool pairs_change);
 
   /** What the next results refer to; to be told whenever it was made anew. */
-  void set_discretization(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes);
+  void set_discretization(const DisplacementSpace<dim> &space,
+                          const LevelSetNodes<dim>     &level_set_nodes);
 
   /**
    * Names of the columns of history.csv, including those of pairs if they are too many for the
@@ -153,8 +154,8 @@ private:
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
   bool                                        pairs_change;
-  const Fields<dim>                          *fields = nullptr;
-  const LevelSetNodes<dim>                   *nodes  = nullptr;
+  const DisplacementSpace<dim>               *space = nullptr;
+  const LevelSetNodes<dim>                   *nodes = nullptr;
   std::unique_ptr<BodyOutput<dim>>            body_output;      //!< made when first needed
   bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;

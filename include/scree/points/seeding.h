@@ -14,7 +14,7 @@ class PointSeeding
 {
 public:
   /** All arguments are referenced; `density` [M/L^dim] has an entry per body. */
-  PointSeeding(const Fields<dim> &fields, const LevelSetNodes<dim> &level_set_nodes,
+  PointSeeding(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
                const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
                const std::vector<double> &density);
 
@@ -33,7 +33,7 @@ private:
                            const CellPoints<dim> &cell_points, const unsigned int n_per_direction) const;
   CellPoints<dim> quadrature_points(const unsigned int active_cell) const;
 
-  const Fields<dim>            &fields;
+  const DisplacementSpace<dim> &space;
   const LevelSetNodes<dim>     &level_set_nodes;
   const std::vector<Body<dim>> &bodies;
   const CutQuadrature<dim>     &quadrature;

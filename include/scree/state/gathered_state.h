@@ -59,7 +59,7 @@ struct GatheredState
 
 /** The state on process 0; collective. */
 template <int dim>
-GatheredState<dim> gather(const State<dim> &state, const Fields<dim> &fields,
+GatheredState<dim> gather(const State<dim> &state, const DisplacementSpace<dim> &space,
                           const ContactPoints<dim> &contact, const bool is_moving);
 
 /**
@@ -70,7 +70,7 @@ GatheredState<dim> gather(const State<dim> &state, const Fields<dim> &fields,
  * @throws UserError if it was saved on others
  */
 template <int dim>
-void restore_fixed(const GatheredState<dim> &saved, const Fields<dim> &fields,
+void restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &space,
                    const ContactPoints<dim> &contact, const std::string &directory,
                    State<dim> &state);
 

@@ -46,5 +46,5 @@ struct State
 
 /** Zeros for all unknowns of this process. */
 template <int dim>
-dealii::TrilinosWrappers::MPI::Vector zero_displacement(const Fields<dim> &fields);
+dealii::TrilinosWrappers::MPI::Vector zero_displacement(const DisplacementSpace<dim> &space);
 } // namespace scree

@@ -1,4 +1,4 @@
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 #include <scree/grid/cell_bodies.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,8 +27,10 @@ sort_and_unite(std::vector<T> &values)
 } // namespace
 
 template <int dim>
-Fields<dim>::Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
-                    const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers)
+DisplacementSpace<dim>::DisplacementSpace(const BackgroundGrid<dim>    &grid,
+                                          const LevelSetNodes<dim>     &level_set_nodes,
+                                          const std::vector<Body<dim>> &bodies,
+                                          const unsigned int            n_multipliers)
     : basis(level_set_nodes.basis())
     , grid(grid)
     , n_multipliers(n_multipliers)
@@ -47,8 +49,8 @@ Fields<dim>::Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &l
 
 template <int dim>
 void
-Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
-                      const std::vector<Body<dim>> &bodies)
+DisplacementSpace<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
+                                 const std::vector<Body<dim>> &bodies)
 {
   bodies_of_cell.resize(grid.cells().size());
   CellBodies<dim>(bodies).visit(
@@ -77,7 +79,7 @@ Fields<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
 
 template <int dim>
 void
-Fields<dim>::colour_bodies(const unsigned int n_bodies)
+DisplacementSpace<dim>::colour_bodies(const unsigned int n_bodies)
 {
   // Bodies at each vertex; two bodies conflict where a cell has vertices of both.
   std::vector<std::vector<unsigned int>> bodies_at_vertex(grid.triangulation().n_vertices());
@@ -138,7 +140,7 @@ Fields<dim>::colour_bodies(const unsigned int n_bodies)
 
 template <int dim>
 void
-Fields<dim>::distribute()
+DisplacementSpace<dim>::distribute()
 {
   const dealii::hp::FECollection<dim> elements(
     dealii::FESystem<dim>(dealii::FE_Q<dim>(basis.degree), dim),
@@ -182,7 +184,7 @@ Fields<dim>::distribute()
 
 template <int dim>
 DofIndex
-Fields<dim>::global_index(const unsigned int field, const DofIndex local) const
+DisplacementSpace<dim>::global_index(const unsigned int field, const DofIndex local) const
 {
   const auto        &starts = field_start[field];
   const unsigned int process
@@ -192,7 +194,7 @@ Fields<dim>::global_index(const unsigned int field, const DofIndex local) const
 
 template <int dim>
 void
-Fields<dim>::list_nodes()
+DisplacementSpace<dim>::list_nodes()
 {
   const dealii::FESystem<dim> element(dealii::FE_Q<dim>(basis.degree), dim);
   const auto                  lexicographic
@@ -234,7 +236,7 @@ Fields<dim>::list_nodes()
 
 template <int dim>
 void
-Fields<dim>::collect_constraints()
+DisplacementSpace<dim>::collect_constraints()
 {
   std::vector<std::pair<DofIndex, std::vector<std::pair<DofIndex, double>>>> lines;
   for (unsigned int f = 0; f < dof_handlers.size(); ++f)
@@ -267,7 +269,7 @@ Fields<dim>::collect_constraints()
 
 template <int dim>
 int
-Fields<dim>::active_cell(const unsigned int grid_cell, const unsigned int body) const
+DisplacementSpace<dim>::active_cell(const unsigned int grid_cell, const unsigned int body) const
 {
   const int active = active_of_grid_cell[colour[body]][grid_cell];
   return active >= 0 && active_cells[active].body == body ? active : -1;
@@ -275,7 +277,8 @@ Fields<dim>::active_cell(const unsigned int grid_cell, const unsigned int body) 
 
 template <int dim>
 int
-Fields<dim>::nearest_active_cell(const dealii::Point<dim> &point, const unsigned int body) const
+DisplacementSpace<dim>::nearest_active_cell(const dealii::Point<dim> &point,
+                                            const unsigned int        body) const
 {
   const auto here = grid.locate(point);
   if (here.local_cell < 0)
@@ -317,7 +320,8 @@ Fields<dim>::nearest_active_cell(const dealii::Point<dim> &point, const unsigned
 
 template <int dim>
 dealii::Point<dim>
-Fields<dim>::unit_point(const unsigned int active_cell, const dealii::Point<dim> &point) const
+DisplacementSpace<dim>::unit_point(const unsigned int        active_cell,
+                                   const dealii::Point<dim> &point) const
 {
   const GridCell<dim> &cell = grid.cells()[active_cells[active_cell].grid_cell];
   return dealii::Point<dim>((point - cell.lower) / cell.size);
@@ -325,8 +329,9 @@ Fields<dim>::unit_point(const unsigned int active_cell, const dealii::Point<dim>
 
 template <int dim>
 void
-Fields<dim>::evaluate_basis(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
-                            ShapeValues<dim> &shape) const
+DisplacementSpace<dim>::evaluate_basis(const unsigned int        active_cell,
+                                       const dealii::Point<dim> &unit_point,
+                                       ShapeValues<dim>         &shape) const
 {
   const double scale = 1. / cell_size(active_cell);
   basis.evaluate_gradients(unit_point, shape);
@@ -336,7 +341,8 @@ Fields<dim>::evaluate_basis(const unsigned int active_cell, const dealii::Point<
 
 template <int dim>
 NodeStencil
-Fields<dim>::local_stencil(const unsigned int body, const dealii::Point<dim> &point) const
+DisplacementSpace<dim>::local_stencil(const unsigned int        body,
+                                      const dealii::Point<dim> &point) const
 {
   const int cell = nearest_active_cell(point, body);
   if (cell < 0)
@@ -358,8 +364,8 @@ Fields<dim>::local_stencil(const unsigned int body, const dealii::Point<dim> &po
 
 template <int dim>
 std::vector<NodeStencil>
-Fields<dim>::stencils(const std::vector<unsigned int>       &bodies,
-                      const std::vector<dealii::Point<dim>> &points) const
+DisplacementSpace<dim>::stencils(const std::vector<unsigned int>       &bodies,
+                                 const std::vector<dealii::Point<dim>> &points) const
 {
   using Request           = std::pair<std::vector<unsigned int>, std::vector<dealii::Point<dim>>>;
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
@@ -391,6 +397,6 @@ Fields<dim>::stencils(const std::vector<unsigned int>       &bodies,
   return result;
 }
 
-template class Fields<2>;
-template class Fields<3>;
+template class DisplacementSpace<2>;
+template class DisplacementSpace<3>;
 } // namespace scree

@@ -1,7 +1,7 @@
 // Fields: colours of bodies, numbering of unknowns, evaluation at points anywhere.
 #include <gtest/gtest.h>
 
-#include <scree/discretization/fields.h>
+#include <scree/discretization/displacement_space.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -27,16 +27,16 @@ two_discs(const double distance, const unsigned int degree = 1, const std::strin
 TEST(Fields, ColoursOfBodies)
 {
   const CutBodies<2> touching(two_discs(0.)), apart(two_discs(0.5));
-  EXPECT_EQ(touching.fields->n_fields(), 2u);
-  EXPECT_NE(touching.fields->field_of_body(0), touching.fields->field_of_body(1));
-  EXPECT_EQ(apart.fields->n_fields(), 1u);
+  EXPECT_EQ(touching.space->n_fields(), 2u);
+  EXPECT_NE(touching.space->field_of_body(0), touching.space->field_of_body(1));
+  EXPECT_EQ(apart.space->n_fields(), 1u);
   // Each active cell of a field belongs to one body.
   for (const CutBodies<2> *model : {&touching, &apart})
-    for (unsigned int a = 0; a < model->fields->cells().size(); ++a)
+    for (unsigned int a = 0; a < model->space->cells().size(); ++a)
       {
-        const auto &cell = model->fields->cells()[a];
-        EXPECT_EQ(model->fields->active_cell(cell.grid_cell, cell.body), int(a));
-        EXPECT_EQ(cell.field, model->fields->field_of_body(cell.body));
+        const auto &cell = model->space->cells()[a];
+        EXPECT_EQ(model->space->active_cell(cell.grid_cell, cell.body), int(a));
+        EXPECT_EQ(cell.field, model->space->field_of_body(cell.body));
       }
 }
 
@@ -48,24 +48,24 @@ TEST(Fields, ChainOfBodiesNeedsTwoFields)
                         ball_text(std::to_string(-0.8 + 0.4 * i) + ", 0", 0.2));
   const CutBodies<2> model(grid_text("-1, -1", "1, 1", "4, 4", 3) + degree_text(1)
                            + bodies_text(bodies));
-  EXPECT_EQ(model.fields->n_fields(), 2u);
+  EXPECT_EQ(model.space->n_fields(), 2u);
   for (unsigned int i = 0; i < 4; ++i)
-    EXPECT_NE(model.fields->field_of_body(i), model.fields->field_of_body(i + 1));
+    EXPECT_NE(model.space->field_of_body(i), model.space->field_of_body(i + 1));
 }
 
 /** Unknowns of all nodes of this process's cells, with their positions. */
 template <int dim>
 std::map<DofIndex, Point<dim>>
-positions(const Fields<dim> &fields)
+positions(const DisplacementSpace<dim> &space)
 {
   std::map<DofIndex, Point<dim>> result;
-  for (unsigned int a = 0; a < fields.cells().size(); ++a)
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
-      const auto &cell = fields.grid.cells()[fields.cells()[a].grid_cell];
-      for (unsigned int i = 0; i < fields.basis.n_nodes; ++i)
+      const auto &cell = space.grid.cells()[space.cells()[a].grid_cell];
+      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
         {
-          const Point<dim> position = cell.lower + cell.size * Tensor<1, dim>(fields.basis.node(i));
-          const auto [entry, is_new] = result.emplace(fields.nodes(a)[i], position);
+          const Point<dim> position  = cell.lower + cell.size * Tensor<1, dim>(space.basis.node(i));
+          const auto [entry, is_new] = result.emplace(space.nodes(a)[i], position);
           EXPECT_LE(entry->second.distance(position), 1e-12) << "a node has two places";
         }
     }
@@ -76,27 +76,27 @@ template <int dim>
 void
 check_numbering(const CutBodies<dim> &model, const unsigned int n_multipliers)
 {
-  const Fields<dim> &fields  = *model.fields;
-  const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const IndexSet    &owned   = fields.owned();
+  const DisplacementSpace<dim> &space   = *model.space;
+  const unsigned int            rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int            n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const IndexSet               &owned   = space.owned();
   EXPECT_TRUE(owned.is_contiguous());
   EXPECT_TRUE(owned.is_ascending_and_one_to_one(MPI_COMM_WORLD));
-  EXPECT_EQ(Utilities::MPI::sum(owned.n_elements(), MPI_COMM_WORLD), fields.n_dofs());
+  EXPECT_EQ(Utilities::MPI::sum(owned.n_elements(), MPI_COMM_WORLD), space.n_dofs());
   // All owned unknowns but the multipliers are components of the nodes of some cell here.
-  const auto nodes = positions(fields);
+  const auto nodes = positions(space);
   DofIndex   n     = rank + 1 == n_ranks ? n_multipliers : 0;
   for (const auto &[node, position] : nodes)
     {
       EXPECT_EQ(owned.is_element(node), owned.is_element(node + dim - 1));
-      EXPECT_TRUE(fields.relevant().is_element(node));
+      EXPECT_TRUE(space.relevant().is_element(node));
       n += owned.is_element(node) ? dim : 0;
     }
   EXPECT_EQ(n, owned.n_elements());
   for (unsigned int i = 0; i < n_multipliers; ++i)
     {
-      EXPECT_EQ(fields.multiplier(i), fields.n_dofs() - n_multipliers + i);
-      EXPECT_EQ(owned.is_element(fields.multiplier(i)), rank + 1 == n_ranks);
+      EXPECT_EQ(space.multiplier(i), space.n_dofs() - n_multipliers + i);
+      EXPECT_EQ(owned.is_element(space.multiplier(i)), rank + 1 == n_ranks);
     }
 }
 
@@ -130,8 +130,8 @@ template <int dim>
 void
 check_stencils(const CutBodies<dim> &model)
 {
-  const Fields<dim>                     &fields = *model.fields;
-  const unsigned int                     rank   = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const DisplacementSpace<dim>          &space = *model.space;
+  const unsigned int                     rank  = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   std::mt19937                           engine(11 + rank);
   std::uniform_real_distribution<double> number(-1., 1.);
   std::vector<unsigned int>              bodies;
@@ -154,10 +154,10 @@ check_stencils(const CutBodies<dim> &model)
     {
       EXPECT_GT(n_elsewhere, 50u);
     }
-  const auto stencils = fields.stencils(bodies, points);
+  const auto stencils = space.stencils(bodies, points);
 
   std::map<DofIndex, Point<dim>> everywhere;
-  for (const auto &here : Utilities::MPI::all_gather(MPI_COMM_WORLD, positions(fields)))
+  for (const auto &here : Utilities::MPI::all_gather(MPI_COMM_WORLD, positions(space)))
     everywhere.insert(here.begin(), here.end());
   for (unsigned int i = 0; i < points.size(); ++i)
     {
@@ -166,9 +166,9 @@ check_stencils(const CutBodies<dim> &model)
       for (const auto &[node, weight] : stencils[i])
         {
           ASSERT_TRUE(everywhere.count(node));
-          if (fields.relevant().is_element(node))
+          if (space.relevant().is_element(node))
             {
-              EXPECT_FALSE(fields.hanging_constraints().is_constrained(node));
+              EXPECT_FALSE(space.hanging_constraints().is_constrained(node));
             }
           sum += weight;
           moment += weight * everywhere[node];
@@ -206,18 +206,18 @@ TEST(Fields, PointsBesideABodyTakeTheNearestCell)
   const CutBodies<2> model(two_discs(0.5));
   const double       h = model.grid.finest_size();
   // Left of the left disc (x = -0.95): at half a cell there is one, at five cells there is none.
-  EXPECT_GE(model.fields->nearest_active_cell(Point<2>(-0.95 - 0.5 * h, 0.01), 0), 0);
-  EXPECT_EQ(model.fields->nearest_active_cell(Point<2>(0.6, 0.), 0), -1);
-  EXPECT_TRUE(model.fields->stencils({0}, {Point<2>(0.6, 0.)})[0].empty());
+  EXPECT_GE(model.space->nearest_active_cell(Point<2>(-0.95 - 0.5 * h, 0.01), 0), 0);
+  EXPECT_EQ(model.space->nearest_active_cell(Point<2>(0.6, 0.), 0), -1);
+  EXPECT_TRUE(model.space->stencils({0}, {Point<2>(0.6, 0.)})[0].empty());
 }
 
 TEST(Fields, HangingNodesAreConstrained)
 {
   const CutBodies<2> model(two_discs(0., 2, graded_text(1)));
   EXPECT_TRUE(model.grid.triangulation().has_hanging_nodes());
-  const auto &constraints = model.fields->hanging_constraints();
+  const auto &constraints = model.space->hanging_constraints();
   EXPECT_GT(constraints.n_constraints(), 0u);
-  const auto nodes = positions(*model.fields);
+  const auto nodes = positions(*model.space);
   for (const auto &[node, position] : nodes)
     if (const auto *entries = constraints.get_constraint_entries(node))
       {

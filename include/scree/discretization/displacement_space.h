@@ -57,12 +57,12 @@ unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
  * unknowns, all on the last process (theory.md section 5).
  */
 template <int dim>
-class Fields
+class DisplacementSpace
 {
 public:
   /** @param n_multipliers unknowns appended for mean supports, owned by the last process */
-  Fields(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
-         const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers);
+  DisplacementSpace(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
+                    const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers);
 
   const std::vector<ActiveCell> &cells() const
   {
@@ -198,11 +198,11 @@ private:
 /** The unknowns of a rigid body in a ghosted vector. */
 template <int dim, typename Vector>
 typename RigidPose<dim>::Unknowns
-rigid_unknowns(const Fields<dim> &fields, const unsigned int body, const Vector &u)
+rigid_unknowns(const DisplacementSpace<dim> &space, const unsigned int body, const Vector &u)
 {
   typename RigidPose<dim>::Unknowns q;
   for (unsigned int m = 0; m < q.size(); ++m)
-    q[m] = u(fields.rigid_unknown(body) + m);
+    q[m] = u(space.rigid_unknown(body) + m);
   return q;
 }
 } // namespace scree
