@@ -60,7 +60,8 @@ template <int dim>
 LatticeFrame<dim>
 Model<dim>::lattice_frame() const
 {
-  return {parameters.grid.lower, grid->finest_size() / parameters.degree, grid->box()};
+  return {parameters.grid.lower,
+          grid->finest_size() / parameters.discretization.degree_of_level_sets(), grid->box()};
 }
 
 template <int dim>
@@ -105,9 +106,8 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{parameters.degree,        parameters.ghost_penalty,
-                                     parameters.contact.shift, parameters.contact.enforcement,
-                                     parameters.moving,        parameters.linear_solver};
+  const ProblemParameters of_problem{parameters.discretization, parameters.contact.shift, parameters.contact.enforcement,
+                                     parameters.moving, parameters.linear_solver};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }

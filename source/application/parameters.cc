@@ -81,22 +81,48 @@ check_units(const std::string &units, ParameterSection &root)
                "give those of length, stress and force, as in mm, MPa, N");
 }
 
-/** That laws of finite strain move the geometry. */
+/** The first body whose law needs a moving geometry, and what is to be said of it. */
 template <int dim>
-void
-check_laws(const Parameters<dim> &p, ParameterSection &section)
+std::string
+law_that_moves(const Parameters<dim> &p)
 {
   for (const auto &body : p.bodies)
-    {
-      const auto material = p.materials.find(body.material);
-      if (material == p.materials.end())
-        continue;
-      const std::string &law  = material->second.law;
-      const std::string  uses = "the body '" + body.name + "' is of the law '" + law + "'";
-      if (!p.moving.is_moving && needs_moving_geometry(law))
-        section.error("Update", uses + ", which needs a moving geometry",
-                      "set Update = every step, or choose Law = linear elastic");
-    }
+    if (const auto material = p.materials.find(body.material);
+        material != p.materials.end() && needs_moving_geometry(material->second.law))
+      return "the body '" + body.name + "' is of the law '" + material->second.law
+             + "', which needs a moving geometry";
+  return "";
+}
+
+/** Settings that make no sense together. */
+struct ImpossibleCombination
+{
+  bool             is_chosen;
+  ParameterSection section;
+  std::string      key, what, remedy;
+};
+
+template <int dim>
+void
+check_combinations(const Parameters<dim> &p, const ParameterSection &discretization,
+                   const ParameterSection &moving, const ParameterSection &study)
+{
+  const std::string           law          = law_that_moves(p);
+  const unsigned int          n_gauss      = p.discretization.gauss_points().bulk;
+  const unsigned int          least_points = p.discretization.degree + 1;
+  const ImpossibleCombination table[]
+    = {{n_gauss < least_points, discretization, "Bulk Gauss points",
+        "with " + std::to_string(n_gauss) + " point(s) per direction some deformations of degree "
+          + std::to_string(p.discretization.degree) + " have no stiffness",
+        "set at least " + std::to_string(least_points) + ", or 0"},
+       {!p.moving.is_moving && !law.empty(), moving, "Update", law,
+        "set Update = every step, or choose Law = linear elastic"},
+       {p.moving.is_moving && p.study.n_cycles > 1 && p.study.strategy == StudyStrategy::adaptive,
+        study, "Strategy", "the error estimate needs a geometry that stays",
+        "set Strategy = uniform, or Moving geometry/Update = none"}};
+  for (const auto &combination : table)
+    if (combination.is_chosen)
+      combination.section.error(combination.key, combination.what, combination.remedy);
 }
 
 /** That probes are in deformable bodies. */
@@ -132,13 +158,9 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection grid_section = root.subsection("Grid", "The background grid.");
   grid.declare(grid_section);
 
-  ParameterSection discretization = root.subsection("Discretization", "Basis and cut cells.");
-  discretization.entry("Degree", degree, dealii::Patterns::Integer(1, 2),
-                       "Polynomial degree k of the displacement and of the level sets.");
-  discretization.entry("Ghost penalty", ghost_penalty, dealii::Patterns::Double(0., 1.),
-                       "gamma of the ghost penalty on faces of cut cells, 0.01 to 0.1; no "
-                       "dimension.");
-
+  ParameterSection discretization_section
+    = root.subsection("Discretization", "Basis and cut cells.");
+  discretization.declare(discretization_section);
   materials = declare_materials(root);
   std::vector<std::string> material_names, body_names;
   for (const auto &entry : materials)
@@ -161,8 +183,6 @@ Parameters<dim>::declare(ParameterFile &file)
     = root.subsection("Moving geometry", "Whether bodies move through the grid.");
   moving.declare(moving_section);
 
-  check_laws(*this, moving_section);
-
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
 
@@ -179,9 +199,7 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");
   study.declare(study_section, grid);
-  if (study.n_cycles > 1 && study.strategy == StudyStrategy::adaptive && moving.is_moving)
-    study_section.error("Strategy", "the error estimate needs a geometry that stays",
-                        "set Strategy = uniform, or Moving geometry/Update = none");
+  check_combinations(*this, discretization_section, moving_section, study_section);
 }
 
 template struct OutputParameters<2>;

@@ -20,10 +20,10 @@ template <int dim>
 class PairSurface
 {
 public:
-  PairSurface(const LagrangeBasis<dim> &basis, const LevelSetNodes<dim> &level_set_nodes,
-              const std::vector<Body<dim>> &bodies, const ContactPair &pair,
-              const ExactDistances<dim> &distances, const bool nodal_normals)
-      : basis(basis)
+  PairSurface(const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
+              const ContactPair &pair, const ExactDistances<dim> &distances,
+              const bool nodal_normals)
+      : basis(level_set_nodes.basis())
       , level_set_nodes(level_set_nodes)
       , bodies(bodies)
       , pair(pair)
@@ -32,7 +32,7 @@ public:
       , distances(distances)
       , nodal_normals(nodal_normals)
       , is_kinked(has_kinks(a) || has_kinks(b))
-      , rules(basis)
+      , rules(level_set_nodes.rules())
   {
   }
 
@@ -185,14 +185,13 @@ contact_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &l
                 const double shift, const ExactDistances<dim> &distances, const bool nodal_normals)
 {
   const BackgroundGrid<dim>     &grid = space.grid;
-  KinkedSurface<dim>             kinked(distances, bodies, space.basis);
+  KinkedSurface<dim>             kinked(distances, bodies, level_set_nodes);
   std::vector<ContactPoint<dim>> points;
   const auto                     of_pairs = cells_of_pairs(grid, bodies, pairs, shift);
   for (auto entry = of_pairs.begin(); entry != of_pairs.end();)
     {
       const unsigned int  p = entry->first;
-      PairSurface<dim>    surface(space.basis, level_set_nodes, bodies, pairs[p], distances,
-                                  nodal_normals);
+      PairSurface<dim>    surface(level_set_nodes, bodies, pairs[p], distances, nodal_normals);
       const LeastGap<dim> least_gap(distances, bodies, pairs[p]);
       for (; entry != of_pairs.end() && entry->first == p; ++entry)
         {

@@ -40,11 +40,10 @@ is_multilinear(const LagrangeBasis<dim> &linear, const LagrangeBasis<dim> &quadr
 template <int dim>
 KinkedSurface<dim>::KinkedSurface(const ExactDistances<dim>    &distances,
                                   const std::vector<Body<dim>> &bodies,
-                                  const LagrangeBasis<dim>     &basis)
+                                  const LevelSetNodes<dim>     &level_set_nodes)
     : distances(distances)
     , bodies(bodies)
-    , basis(basis)
-    , rules(basis)
+    , rules(level_set_nodes.rules())
 {
 }
 
@@ -136,14 +135,14 @@ KinkedSurface<dim>::divide(const ContactPair &pair, const GridCell<dim> &cell,
     }
   std::array<double, max_nodes_per_cell<dim>> scaled;
   unsigned int                                n_negative = 0;
-  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+  for (unsigned int i = 0; i < rules.basis.n_nodes; ++i)
     {
-      scaled[i] = difference(place(basis.node(i))) / size;
+      scaled[i] = difference(place(rules.basis.node(i))) / size;
       if (std::abs(scaled[i]) < 1e-9)
         scaled[i] = 1e-9;
       n_negative += scaled[i] < 0.;
     }
-  if (n_negative == 0 || n_negative == basis.n_nodes)
+  if (n_negative == 0 || n_negative == rules.basis.n_nodes)
     return;
   const CellPoints<dim> surface = rules.rules(scaled.data(), size).surface;
   for (unsigned int q = 0; q < surface.points.size(); ++q)
@@ -198,7 +197,7 @@ template <int dim>
 std::vector<dealii::Point<dim>>
 KinkedSurface<dim>::places(const Piece &piece) const
 {
-  if (basis.degree == 1)
+  if (rules.gauss.surface < 3)
     return {piece.x};
   std::vector<dealii::Point<dim>> result;
   const auto                      principal = dealii::eigenvectors(piece.square);

@@ -41,13 +41,14 @@ template <int dim>
 class Feet
 {
 public:
-  Feet(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
-       const std::vector<ContactPair> &pairs, const ExactDistances<dim> &distances)
+  Feet(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
+       const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+       const ExactDistances<dim> &distances)
       : bodies(bodies)
       , pairs(pairs)
       , distances(distances)
-      , box(space.grid.box())
-      , degree(space.basis.degree)
+      , box(grid.box())
+      , degree(level_set_nodes.basis().degree)
   {
   }
 
@@ -62,7 +63,7 @@ private:
   const std::vector<ContactPair> &pairs;
   const ExactDistances<dim>      &distances;
   const dealii::BoundingBox<dim>  box;
-  const unsigned int              degree;
+  const unsigned int              degree; // of the level sets
 };
 
 template <int dim>
@@ -208,13 +209,13 @@ level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
                   const dealii::TrilinosWrappers::MPI::Vector *secant_ratios)
 {
-  const ExactDistances<dim>      distances(bodies, space.grid.finest_size());
-  const InitialGaps<dim>         initial_gaps(bodies, pairs, 2. * shift, space.basis.degree);
-  const bool                     moves = std::any_of(bodies.begin(), bodies.end(),
-                                                     [](const Body<dim> &body) { return body.law != nullptr; });
+  const ExactDistances<dim> distances(bodies, space.grid.finest_size());
+  const InitialGaps<dim>    initial_gaps(bodies, pairs, 2. * shift, level_set_nodes.basis().degree);
+  const bool                moves = std::any_of(bodies.begin(), bodies.end(),
+                                                [](const Body<dim> &body) { return body.law != nullptr; });
   std::vector<ContactPoint<dim>> points
     = contact_surface(space, level_set_nodes, bodies, pairs, shift, distances, moves || prediction);
-  const Feet<dim> feet(space, bodies, pairs, distances);
+  const Feet<dim> feet(space.grid, level_set_nodes, bodies, pairs, distances);
   for (ContactPoint<dim> &point : points)
     feet.find(prediction, point);
   Stencils<dim> stencils(space, bodies, pairs, points, start_displacement, secant_ratios);

@@ -2,11 +2,6 @@
 #include <scree/grid/cell_bodies.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/fe_tools.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
@@ -28,10 +23,11 @@ sort_and_unite(std::vector<T> &values)
 
 template <int dim>
 DisplacementSpace<dim>::DisplacementSpace(const BackgroundGrid<dim>    &grid,
+                                          const unsigned int            degree,
                                           const LevelSetNodes<dim>     &level_set_nodes,
                                           const std::vector<Body<dim>> &bodies,
                                           const unsigned int            n_multipliers)
-    : basis(level_set_nodes.basis())
+    : basis(degree)
     , grid(grid)
     , n_multipliers(n_multipliers)
 {
@@ -42,9 +38,17 @@ DisplacementSpace<dim>::DisplacementSpace(const BackgroundGrid<dim>    &grid,
     }
   classify(level_set_nodes, bodies);
   colour_bodies(bodies.size());
-  distribute();
-  list_nodes();
-  collect_constraints();
+  std::vector<FieldNodes> of_fields;
+  for (const std::vector<int> &active : active_of_grid_cell)
+    {
+      std::vector<bool> is_active(active.size());
+      std::transform(active.begin(), active.end(), is_active.begin(),
+                     [](const int cell) { return cell >= 0; });
+      of_fields.push_back(lagrange_nodes(grid, basis, is_active));
+    }
+  number(of_fields);
+  list_nodes(of_fields);
+  collect_constraints(of_fields);
 }
 
 template <int dim>
@@ -140,26 +144,15 @@ DisplacementSpace<dim>::colour_bodies(const unsigned int n_bodies)
 
 template <int dim>
 void
-DisplacementSpace<dim>::distribute()
+DisplacementSpace<dim>::number(const std::vector<FieldNodes> &of_fields)
 {
-  const dealii::hp::FECollection<dim> elements(
-    dealii::FESystem<dim>(dealii::FE_Q<dim>(basis.degree), dim),
-    dealii::FESystem<dim>(dealii::FE_Nothing<dim>(), dim));
-  const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
-  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator());
-
+  const unsigned int    rank    = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
+  const unsigned int    n_ranks = dealii::Utilities::MPI::n_mpi_processes(grid.communicator());
   std::vector<DofIndex> n_of_process(n_ranks, 0);
-  for (const std::vector<int> &active : active_of_grid_cell)
+  for (const FieldNodes &of_field : of_fields)
     {
-      dof_handlers.push_back(std::make_unique<dealii::DoFHandler<dim>>(grid.triangulation()));
-      for (const auto &cell : dof_handlers.back()->active_cell_iterators())
-        if (cell->is_locally_owned())
-          cell->set_active_fe_index(active[grid.local_index(*cell)] < 0);
-      dof_handlers.back()->distribute_dofs(elements);
-
       std::vector<DofIndex> starts(n_ranks + 1, 0);
-      const auto            counts = dealii::Utilities::MPI::all_gather(
-                   grid.communicator(), DofIndex(dof_handlers.back()->n_locally_owned_dofs()));
+      const auto counts = dealii::Utilities::MPI::all_gather(grid.communicator(), of_field.n_owned);
       for (unsigned int p = 0; p < n_ranks; ++p)
         starts[p + 1] = starts[p] + counts[p];
       global_start.push_back(n_of_process); // for now the offset inside the process
@@ -194,39 +187,21 @@ DisplacementSpace<dim>::global_index(const unsigned int field, const DofIndex lo
 
 template <int dim>
 void
-DisplacementSpace<dim>::list_nodes()
+DisplacementSpace<dim>::list_nodes(const std::vector<FieldNodes> &of_fields)
 {
-  const dealii::FESystem<dim> element(dealii::FE_Q<dim>(basis.degree), dim);
-  const auto                  lexicographic
-    = dealii::FETools::hierarchic_to_lexicographic_numbering<dim>(basis.degree);
-  std::vector<unsigned int> node_of(element.n_dofs_per_cell()), component_of(node_of.size());
-  for (unsigned int i = 0; i < node_of.size(); ++i)
-    {
-      const auto [component, index] = element.system_to_component_index(i);
-      component_of[i]               = component;
-      node_of[i]                    = lexicographic[index];
-    }
-
-  std::vector<DofIndex> indices(element.n_dofs_per_cell()), relevant;
+  std::vector<DofIndex> relevant;
   cell_nodes.resize(active_cells.size() * basis.n_nodes);
-  for (unsigned int a = 0; a < active_cells.size(); ++a)
+  for (unsigned int f = 0; f < of_fields.size(); ++f)
     {
-      const ActiveCell &cell     = active_cells[a];
-      const auto       &iterator = grid.cells()[cell.grid_cell].iterator;
-      typename dealii::DoFHandler<dim>::active_cell_iterator(
-        &grid.triangulation(), iterator->level(), iterator->index(), dof_handlers[cell.field].get())
-        ->get_dof_indices(indices);
-      DofIndex *nodes = &cell_nodes[std::size_t(a) * basis.n_nodes];
-      for (unsigned int i = 0; i < indices.size(); ++i)
-        if (component_of[i] == 0)
-          nodes[node_of[i]] = global_index(cell.field, indices[i]);
-      for (unsigned int i = 0; i < indices.size(); ++i)
-        {
-          const DofIndex global = nodes[node_of[i]] + component_of[i];
-          AssertThrow(global_index(cell.field, indices[i]) == global,
-                      dealii::ExcMessage("the components of a node are not contiguous"));
-          relevant.push_back(global);
-        }
+      auto local = of_fields[f].of_cells.begin();
+      for (const int a : active_of_grid_cell[f])
+        for (unsigned int i = 0; a >= 0 && i < basis.n_nodes; ++i)
+          {
+            const DofIndex node                            = global_index(f, *local++);
+            cell_nodes[std::size_t(a) * basis.n_nodes + i] = node;
+            for (unsigned int d = 0; d < dim; ++d)
+              relevant.push_back(node + d);
+          }
     }
   sort_and_unite(relevant);
   relevant_dofs = owned_dofs;
@@ -236,33 +211,25 @@ DisplacementSpace<dim>::list_nodes()
 
 template <int dim>
 void
-DisplacementSpace<dim>::collect_constraints()
+DisplacementSpace<dim>::collect_constraints(const std::vector<FieldNodes> &of_fields)
 {
-  std::vector<std::pair<DofIndex, std::vector<std::pair<DofIndex, double>>>> lines;
-  for (unsigned int f = 0; f < dof_handlers.size(); ++f)
-    {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(*dof_handlers[f], relevant);
-      dealii::AffineConstraints<double> of_field(relevant);
-      dealii::DoFTools::make_hanging_node_constraints(*dof_handlers[f], of_field);
-      of_field.close();
-      for (const auto &line : of_field.get_lines())
-        {
-          lines.emplace_back(global_index(f, line.index),
-                             std::vector<std::pair<DofIndex, double>>());
-          for (const auto &[master, weight] : line.entries)
-            {
-              lines.back().second.emplace_back(global_index(f, master), weight);
-              relevant_dofs.add_index(lines.back().second.back().first);
-            }
-        }
-    }
+  std::vector<FieldNodes::Constraint> lines;
+  for (unsigned int f = 0; f < of_fields.size(); ++f)
+    for (const auto &[unknown, masters] : of_fields[f].constraints)
+      {
+        lines.push_back({global_index(f, unknown), {}});
+        for (const auto &[master, weight] : masters)
+          {
+            lines.back().masters.emplace_back(global_index(f, master), weight);
+            relevant_dofs.add_index(lines.back().masters.back().first);
+          }
+      }
   relevant_dofs.compress();
   constraints.reinit(relevant_dofs);
-  for (const auto &[index, entries] : lines)
+  for (const auto &[unknown, masters] : lines)
     {
-      constraints.add_line(index);
-      constraints.add_entries(index, entries);
+      constraints.add_line(unknown);
+      constraints.add_entries(unknown, masters);
     }
   constraints.close();
 }

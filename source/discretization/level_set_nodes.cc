@@ -13,9 +13,11 @@
 namespace scree
 {
 template <int dim>
-LevelSetNodes<dim>::LevelSetNodes(const BackgroundGrid<dim> &grid, const unsigned int degree)
+LevelSetNodes<dim>::LevelSetNodes(const BackgroundGrid<dim> &grid, const unsigned int degree,
+                                  const GaussPoints gauss)
     : grid(grid)
     , lagrange(degree)
+    , gauss_points(gauss)
     , hanging(grid.n_owned_cells())
 {
   if (!grid.triangulation().has_hanging_nodes())

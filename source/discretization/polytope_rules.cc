@@ -2,6 +2,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -83,13 +84,13 @@ simplex_rule(const unsigned int n)
 
 template <int dim>
 void
-append_rule(const Polytope<dim> &part, const unsigned int k, const double cell_size,
+append_rule(const Polytope<dim> &part, const unsigned int n, const double cell_size,
             CellPoints<dim> &result)
 {
   const double volume = std::pow(cell_size, dim);
   if (const auto box = part.as_box())
     {
-      const dealii::QGauss<dim> gauss(k + 1);
+      const dealii::QGauss<dim> gauss(n);
       const Tensor<1, dim>      edges    = box->second - box->first;
       double                    jacobian = volume;
       for (unsigned int d = 0; d < dim; ++d)
@@ -104,7 +105,7 @@ append_rule(const Polytope<dim> &part, const unsigned int k, const double cell_s
         }
       return;
     }
-  const auto &rule = simplex_rule<dim>(k + 1);
+  const auto &rule = simplex_rule<dim>(n);
   for (const auto &simplex : part.simplices())
     {
       Tensor<2, dim> edges;
@@ -116,16 +117,16 @@ append_rule(const Polytope<dim> &part, const unsigned int k, const double cell_s
 
 template <int dim>
 void
-append_rule(const Facet<dim> &facet, const Tensor<1, dim> &normal, const unsigned int k,
+append_rule(const Facet<dim> &facet, const Tensor<1, dim> &normal, const unsigned int n,
             const double cell_size, CellPoints<dim> &result)
 {
-  const unsigned int n = dim == 2 ? k + 1 : (3 * k + 2) / 2;
-  if (append_on_rectangle(facet, n, std::pow(cell_size, dim - 1), result))
+  const unsigned int n_facet = dim == 2 ? n : std::max(n, std::min(4u, (3 * n - 1) / 2));
+  if (append_on_rectangle(facet, n_facet, std::pow(cell_size, dim - 1), result))
     {
       result.normals.resize(result.points.size(), normal);
       return;
     }
-  const auto &rule = simplex_rule<dim - 1>(n);
+  const auto &rule = simplex_rule<dim - 1>(n_facet);
   for (const auto &simplex : simplices_of(facet))
     {
       const double jacobian = facet_jacobian<dim>(simplex) * std::pow(cell_size, dim - 1);

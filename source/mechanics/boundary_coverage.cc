@@ -11,7 +11,7 @@ set_coverage(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &leve
              const Body<dim> &body, const BoundaryRegion<dim> &region,
              const Kinematics<dim> &kinematics, std::vector<double> &coverage)
 {
-  CutCellRules<dim> rules(space.basis);
+  CutCellRules<dim> rules     = level_set_nodes.rules();
   int               last_cell = -1;
   for (const auto &point : region.points)
     {
@@ -26,7 +26,7 @@ set_coverage(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &leve
            kinematics.reference_position({a, space.unit_point(a, x)}));
       };
       const CellPoints<dim> surface
-        = load_rule<dim>(rules, space.basis, geometry, nullptr, level_set_nodes.cut(cell, body),
+        = load_rule<dim>(rules, geometry, nullptr, level_set_nodes.cut(cell, body),
                          region.condition->box_face, selects);
       double covered = 0., all = 0.;
       for (unsigned int q = 0; q < surface.points.size(); ++q)

@@ -41,10 +41,10 @@ add_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_
   else
     {
       const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, body);
-      points = is_load ? load_rule<dim>(rules, space.basis, geometry, shape, cut, face, selects)
-                       : rules.face_rule(cut, geometry.size, face);
+      points                 = is_load ? load_rule<dim>(rules, geometry, shape, cut, face, selects)
+                                       : rules.face_rule(cut, geometry.size, face);
       if (is_load && on_face)
-        points.append(strip_on_face(*shape, space.basis, geometry, cut, face));
+        points.append(strip_on_face(*shape, rules, geometry, cut, face));
     }
   for (unsigned int q = 0; q < points.points.size(); ++q)
     {
@@ -120,7 +120,7 @@ find_boundary_regions(const DisplacementSpace<dim> &space,
           {b, &condition, {}, 0., {}, 0., next_multiplier, kinematics.follows_surface(condition)});
         next_multiplier += condition.n_multipliers();
       }
-  CutCellRules<dim> rules(space.basis);
+  CutCellRules<dim> rules = level_set_nodes.rules();
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const unsigned int b = space.cells()[a].body;

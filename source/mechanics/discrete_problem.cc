@@ -56,8 +56,8 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State
                                                   *problem.kinematics, problem.boundary_terms,
                                                   contact);
                         }))
-    , solver(problem.parameters.linear_solver, problem.parameters.degree, problem.space,
-             equilibrium, contact.points().size(), problem.timings)
+    , solver(problem.parameters.linear_solver, problem.space, equilibrium, contact.points().size(),
+             problem.timings)
 {
 }
 
@@ -70,16 +70,21 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
     , grid(grid)
     , bodies(state.bodies)
     , pairs(pairs)
-    , level_set_nodes(
-        timed(timings, "fields", [&]() { return LevelSetNodes<dim>(grid, parameters.degree); }))
+    , level_set_nodes(timed(timings, "fields",
+                            [&]() {
+                              return LevelSetNodes<dim>(
+                                grid, parameters.discretization.degree_of_level_sets(),
+                                parameters.discretization.gauss_points());
+                            }))
     , space(timed(timings, "fields",
                   [&]() {
-                    return DisplacementSpace<dim>(grid, level_set_nodes, bodies,
+                    return DisplacementSpace<dim>(grid, parameters.discretization.degree,
+                                                  level_set_nodes, bodies,
                                                   BoundaryTerms<dim>::n_multipliers(bodies));
                   }))
     , quadrature(timed(timings, "quadrature",
                        [&]() { return CutQuadrature<dim>(space, level_set_nodes, bodies); }))
-    , small_cuts(make_small_cut_treatment(space, parameters.ghost_penalty))
+    , small_cuts(make_small_cut_treatment(space, parameters.discretization.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",

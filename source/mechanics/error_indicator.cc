@@ -92,10 +92,7 @@ private:
 
   DofIndex vertex_node(const unsigned int active_cell, const unsigned int vertex) const
   {
-    unsigned int node = 0, stride = k;
-    for (unsigned int d = 0; d < dim; ++d, stride *= space.basis.n_1d)
-      node += ((vertex >> d) & 1u) * stride;
-    return space.nodes(active_cell)[node];
+    return space.nodes(active_cell)[space.basis.vertex(vertex)];
   }
 
   void find_patches()

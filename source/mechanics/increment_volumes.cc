@@ -24,7 +24,7 @@ IncrementVolumes<dim>::IncrementVolumes(const DisplacementSpace<dim> &space,
       for (unsigned int q = 0; q < points.n_points; ++q)
         weights[q] = points.weights[q] * points.weight_scale / quadrature.starts(a)[q].volume_ratio;
       cell_modes.emplace_back(points.points, weights.data(), points.n_points,
-                              space.basis.degree - 1);
+                              space.volume_degree());
       for (unsigned int q = 0; q < points.n_points; ++q)
         for (const double value : cell_modes.back()(points.points[q]))
           mode_values.push_back(value);

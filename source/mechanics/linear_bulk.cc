@@ -95,8 +95,7 @@ LinearBulk<dim>::add_projected_stiffness(const unsigned int active_cell, const d
   const auto             points = this->rule(active_cell);
   const unsigned int     n      = space.basis.n_nodes * dim;
   const double           scale  = 1. / space.cell_size(active_cell);
-  const VolumeModes<dim> psi(points.points, points.weights, points.n_points,
-                             space.basis.degree - 1);
+  const VolumeModes<dim> psi(points.points, points.weights, points.n_points, space.volume_degree());
   std::array<std::array<double, dim * max_nodes_per_cell<dim>>, VolumeModes<dim>::n_max> integrals
     = {};
   ShapeValues<dim> shape;

@@ -129,10 +129,11 @@ move_to_boundary(const Shape<dim> &shape, const GridCell<dim> &cell, BoundaryPoi
 
 template <int dim>
 CellPoints<dim>
-strip_on_face(const Shape<dim> &shape, const LagrangeBasis<dim> &basis, const GridCell<dim> &cell,
+strip_on_face(const Shape<dim> &shape, const CutCellRules<dim> &rules, const GridCell<dim> &cell,
               const CellCut<dim> &cut, const unsigned int face)
 {
-  CellPoints<dim> result;
+  const LagrangeBasis<dim> &basis = rules.basis;
+  CellPoints<dim>           result;
   if (cut.location != CellLocation::cut || !cut.parts.empty())
     return result;
   const unsigned int  direction = face / 2;
@@ -169,8 +170,8 @@ strip_on_face(const Shape<dim> &shape, const LagrangeBasis<dim> &basis, const Gr
       const LagrangeBasis<2> of_face(basis.degree);
       if (location_of(values.data(), of_face.n_nodes) != CellLocation::cut)
         return result;
-      CutCellRules<2> rules(of_face);
-      const auto      edge = rules.rules(values.data(), cell.size).surface;
+      CutCellRules<2> rules_of_face(of_face, rules.gauss);
+      const auto      edge = rules_of_face.rules(values.data(), cell.size).surface;
       for (unsigned int q = 0; q < edge.points.size(); ++q)
         {
           Tensor<1, dim> out = on_face(Point<2>(edge.normals[q]));
@@ -193,10 +194,10 @@ class Halving
 public:
   using Selects = std::function<bool(const Point<dim> &)>;
 
-  Halving(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const GridCell<dim> &cell,
-          const Shape<dim> *shape, const Selects &selects)
+  Halving(CutCellRules<dim> &rules, const GridCell<dim> &cell, const Shape<dim> *shape,
+          const Selects &selects)
       : rules(rules)
-      , basis(basis)
+      , basis(rules.basis)
       , cell(cell)
       , shape(shape)
       , selects(selects)
@@ -238,7 +239,7 @@ public:
   void add_facet(const Facet<dim> &facet, const Tensor<1, dim> &normal)
   {
     CellPoints<dim> whole;
-    append_rule(facet, normal, basis.degree, cell.size, whole);
+    append_rule(facet, normal, rules.gauss.surface, cell.size, whole);
     if (is_uniform(whole))
       result.append(whole);
     else
@@ -253,7 +254,7 @@ public:
     CellPoints<dim> part;
     Facet<dim>      facet;
     facet.vertices = simplex;
-    append_rule(facet, normal, basis.degree, cell.size, part);
+    append_rule(facet, normal, rules.gauss.surface, cell.size, part);
     if (depth == most_halvings<dim> || is_uniform(part))
       {
         result.append(part);
@@ -313,12 +314,12 @@ private:
 
 template <int dim>
 CellPoints<dim>
-load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const GridCell<dim> &cell,
-          const Shape<dim> *shape, const CellCut<dim> &cut, const unsigned int face,
+load_rule(CutCellRules<dim> &rules, const GridCell<dim> &cell, const Shape<dim> *shape,
+          const CellCut<dim> &cut, const unsigned int face,
           const std::function<bool(const Point<dim> &)> &selects)
 {
   const bool   on_face = face != BoundaryCondition<dim>::no_face;
-  Halving<dim> halving(rules, basis, cell, on_face ? nullptr : shape, selects);
+  Halving<dim> halving(rules, cell, on_face ? nullptr : shape, selects);
   const auto   add_facets = [&](const Polytope<dim> &part) {
     for (const auto &facet : part.facets)
       if (on_face ? facet.face == int(face) : facet.is_surface())
@@ -343,10 +344,10 @@ load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const GridC
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template void move_to_boundary(const Shape<dim> &, const GridCell<dim> &, BoundaryPoint<dim> &); \
-  template CellPoints<dim> load_rule(                                                              \
-    CutCellRules<dim> &, const LagrangeBasis<dim> &, const GridCell<dim> &, const Shape<dim> *,    \
-    const CellCut<dim> &, const unsigned int, const std::function<bool(const Point<dim> &)> &);    \
-  template CellPoints<dim> strip_on_face(const Shape<dim> &, const LagrangeBasis<dim> &,           \
+  template CellPoints<dim> load_rule(CutCellRules<dim> &, const GridCell<dim> &,                   \
+                                     const Shape<dim> *, const CellCut<dim> &, const unsigned int, \
+                                     const std::function<bool(const Point<dim> &)> &);             \
+  template CellPoints<dim> strip_on_face(const Shape<dim> &, const CutCellRules<dim> &,            \
                                          const GridCell<dim> &, const CellCut<dim> &,              \
                                          const unsigned int);
 

@@ -5,16 +5,6 @@
 
 namespace scree
 {
-namespace
-{
-/** m of the m^dim points of a cell. */
-unsigned int
-points_per_direction(const MovingGeometryParameters &parameters, const unsigned int degree)
-{
-  return parameters.points_per_direction > 0 ? parameters.points_per_direction : degree + 1;
-}
-} // namespace
-
 template <int dim>
 MaterialPoints<dim>
 seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
@@ -29,7 +19,7 @@ seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level
     = StepStart<dim>::needs_internal(bodies) ? StepStart<dim>::n_internal : 0;
   return parameters.places == PointPlaces::quadrature_points
            ? seeding.at_quadrature_points(n_internal)
-           : seeding.on_sub_grid(points_per_direction(parameters, space.basis.degree), n_internal);
+           : seeding.on_sub_grid(parameters.points_of_cell(space.basis.degree), n_internal);
 }
 
 template <int dim>
@@ -45,8 +35,8 @@ distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParam
   for (const auto &location : locate_points(space, points))
     cell_size.push_back(largest_spread * space.cell_size(location.active_cell));
   const unsigned int degree = space.basis.degree;
-  split_points(points, cell_size, points_per_direction(parameters, degree),
-               {degree, parameters.support});
+  split_points(points, cell_size, parameters.points_of_cell(degree),
+               {parameters.least_squares_degree(degree), parameters.support});
   // The parts of a point may lie in cells of other processes.
   send_to_owners<dim>(points, owner, space.grid.communicator());
 }

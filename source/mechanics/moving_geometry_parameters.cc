@@ -29,6 +29,9 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "At the start of a step. reference map: from the displacement x - X of the points, "
                 "fitted in the finite element space; moving least squares: of the gradients that "
                 "the points carry.");
+  section.entry("Least squares degree", degree_of_fits,
+                EnumNames<int>{{as_displacement, "as displacement"}, {0, "0"}, {1, "1"}, {2, "2"}},
+                "Of the polynomials of moving least squares.");
   section.entry("Support", support, dealii::Patterns::Double(1., 5.),
                 "Radius of moving least squares, in cells or distances of points [-].");
   section.entry(

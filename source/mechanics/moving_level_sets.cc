@@ -115,18 +115,8 @@ IncrementInCells<dim>::table(const unsigned int n)
   if (tables.size() <= n)
     tables.resize(n + 1);
   if (tables[n].empty())
-    {
-      const unsigned int  n_1d = space.basis.n_1d;
-      std::vector<double> values(space.basis.n_nodes);
-      for (unsigned int i = 0; i <= n; ++i)
-        {
-          dealii::Point<dim> point; // on the first edge, where the other functions vanish
-          point[0] = double(i) / n;
-          space.basis.evaluate_values(point, values.data());
-          tables[n].emplace_back();
-          std::copy_n(values.begin(), n_1d, tables[n].back().begin());
-        }
-    }
+    for (unsigned int i = 0; i <= n; ++i)
+      tables[n].push_back(space.basis.values_1d(double(i) / n));
   return tables[n];
 }
 

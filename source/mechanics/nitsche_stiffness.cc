@@ -40,9 +40,8 @@ template <int dim>
 double
 NitscheStiffness<dim>::of_point(const BoundaryRegion<dim> &region, const unsigned int q) const
 {
-  const double k = space.basis.degree;
-  return pointwise_share(region, q) * region.condition->parameters.penalty_factor * k * k
-         * bodies[region.body].material->p_wave_modulus()
+  return pointwise_share(region, q) * region.condition->parameters.penalty_factor
+         * space.trace_factor() * bodies[region.body].material->p_wave_modulus()
          / space.cell_size(region.points[q].active_cell);
 }
 

@@ -40,7 +40,7 @@ NormalMoments<dim>::NormalMoments(const BoundarySetting<dim>      &setting,
              begin,
              end,
              of_moments,
-             VolumeModes<dim>(points.data(), weights.data(), points.size(), space.basis.degree - 1),
+             VolumeModes<dim>(points.data(), weights.data(), points.size(), space.volume_degree()),
              {}});
           for (unsigned int m = 0; m < of_cells.back().modes.n; ++m)
             of_cells.back().rows.push_back(row(of_cells.back(), m));

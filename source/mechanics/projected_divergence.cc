@@ -20,16 +20,16 @@ function(const unsigned int j, const dealii::Point<dim> &unit_point)
 /** int f_j d_i N_a projected: sum_m c_mj int psi_m d_i N_a, j after j. */
 template <int dim>
 std::vector<double>
-integrate_rows(const LagrangeBasis<dim> &basis, const dealii::Point<dim> *points,
+integrate_rows(const DisplacementSpace<dim> &space, const dealii::Point<dim> *points,
                const double *weights, const unsigned int n_points, const double gradient_scale)
 {
-  const VolumeModes<dim> modes(points, weights, n_points, basis.degree - 1);
-  const unsigned int     n_unknowns = basis.n_nodes * dim;
+  const VolumeModes<dim> modes(points, weights, n_points, space.volume_degree());
+  const unsigned int     n_unknowns = space.basis.n_nodes * dim;
   std::vector<double>    integrals(modes.n * n_unknowns, 0.);
   ShapeValues<dim>       shape;
   for (unsigned int q = 0; q < n_points; ++q)
     {
-      basis.evaluate_gradients(points[q], shape);
+      space.basis.evaluate_gradients(points[q], shape);
       const auto psi = modes(points[q]);
       for (unsigned int m = 0; m < modes.n; ++m)
         for (unsigned int i = 0; i < n_unknowns; ++i)
@@ -77,16 +77,16 @@ ProjectedDivergence<dim>::ProjectedDivergence(const DisplacementSpace<dim> &spac
   if (std::find(is_projected.begin(), is_projected.end(), true) == is_projected.end())
     return;
   const auto &whole = quadrature.whole_cell;
-  whole_rows        = integrate_rows(space.basis, whole.points.data(), whole.weights.data(),
-                                     whole.points.size(), 1.);
+  whole_rows
+    = integrate_rows(space, whole.points.data(), whole.weights.data(), whole.points.size(), 1.);
   std::vector<std::vector<double>> of_cells(space.cells().size());
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     if (space.cells()[a].is_cut && is_projected[space.cells()[a].body])
       {
         const auto        &cut   = quadrature.bulk;
         const unsigned int begin = cut.begin[a];
-        of_cells[a] = integrate_rows(space.basis, &cut.points[begin], &cut.weights[begin],
-                                     cut.begin[a + 1] - begin, 1. / space.cell_size(a));
+        of_cells[a]              = integrate_rows(space, &cut.points[begin], &cut.weights[begin],
+                                                  cut.begin[a + 1] - begin, 1. / space.cell_size(a));
       }
   exchange_to_ghosts(space, of_cells);
   for (const auto &of_cell : of_cells)

@@ -145,8 +145,8 @@ StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadratu
       || parameters.deformation == DeformationTransfer::moving_least_squares)
     {
       collect_neighbours();
-      moving_least_squares.emplace(
-        scree::moving_least_squares(cloud, {space.basis.degree, parameters.support, true}));
+      moving_least_squares.emplace(scree::moving_least_squares(
+        cloud, {parameters.least_squares_degree(space.basis.degree), parameters.support, true}));
     }
   find_volume_changes(quadrature);
 }
@@ -189,7 +189,7 @@ StepStart<dim>::find_volume_changes(const CutQuadrature<dim> &quadrature)
           weights[q] /= start.volume_ratio;
         }
       change_of_cell[a] = volume_changes.size();
-      volume_changes.push_back({{points, weights.data(), n, space.basis.degree - 1}, {}});
+      volume_changes.push_back({{points, weights.data(), n, space.volume_degree()}, {}});
       auto &[modes, values] = volume_changes.back();
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int m = 0; m < modes.n; ++m)

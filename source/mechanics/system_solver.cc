@@ -5,12 +5,12 @@
 namespace scree
 {
 template <int dim>
-SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
+SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters,
                                 const DisplacementSpace<dim> &space, Equilibrium<dim> &equilibrium,
                                 const std::size_t n_contact_points, Timings &timings)
     : equilibrium(equilibrium)
     , timings(timings)
-    , linear_solver(parameters, dim, degree)
+    , linear_solver(parameters, dim, space.basis.degree)
 {
   const auto n_all_points
     = dealii::Utilities::MPI::sum(n_contact_points, space.grid.communicator());

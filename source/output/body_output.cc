@@ -231,7 +231,7 @@ BodyOutput<dim>::BodyOutput(const DisplacementSpace<dim> &space,
         }
       const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
       if (cut.parts.empty())
-        cut_cell(a, std::vector<double>(cut.scaled.begin(), cut.scaled.end()));
+        cut_cell(a, level_set_nodes.basis(), cut.scaled);
       for (const auto &part : cut.parts)
         if (part.is_unit_cell())
           add_whole(a);
@@ -246,11 +246,11 @@ BodyOutput<dim>::BodyOutput(const DisplacementSpace<dim> &space,
 
 template <int dim>
 void
-BodyOutput<dim>::cut_cell(const unsigned int active_cell, const std::vector<double> &phi)
+BodyOutput<dim>::cut_cell(const unsigned int active_cell, const LagrangeBasis<dim> &basis,
+                          const std::array<double, max_nodes_per_cell<dim>> &phi)
 {
   // Sub-cells between the nodes, each divided into simplices with linear phi.
-  const LagrangeBasis<dim> &basis = space.basis;
-  const unsigned int        k     = basis.degree;
+  const unsigned int k = basis.degree;
   for (unsigned int sub = 0; sub < (dim == 2 ? k * k : k * k * k); ++sub)
     {
       std::vector<dealii::Point<dim>> corners;

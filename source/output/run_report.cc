@@ -62,9 +62,12 @@ RunReport<dim>::set_up(const DiscreteProblem<dim> &problem, const bool pairs_cha
              + ": with OPENBLAS_CORETYPE=Haswell in the environment linear solvers are faster");
   log.line("Grid: " + std::to_string(problem.grid.triangulation().n_global_active_cells())
            + " cells, finest edge " + short_number(problem.grid.finest_size()));
-  log.line("Unknowns: " + std::to_string(problem.space.n_dofs()) + " of degree "
-           + std::to_string(problem.parameters.degree) + " in "
-           + std::to_string(problem.space.n_fields()) + " field(s)");
+  const unsigned int degree        = problem.space.basis.degree,
+                     of_level_sets = problem.level_set_nodes.basis().degree;
+  log.line(
+    "Unknowns: " + std::to_string(problem.space.n_dofs()) + " of degree " + std::to_string(degree)
+    + " in " + std::to_string(problem.space.n_fields()) + " field(s)"
+    + (of_level_sets == degree ? "" : ", level sets of degree " + std::to_string(of_level_sets)));
   const auto &bodies  = problem.bodies;
   const auto  volumes = problem.bulk.volumes();
   if (bodies.size() > most_told)

@@ -26,11 +26,12 @@ sub_cell_corner(unsigned int i, const unsigned int m)
 /** The parts of a cell's sub-cells inside the body: their centroids and volumes. */
 template <int dim>
 CellPoints<dim>
-sub_cell_parts(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const double *scaled,
-               const double size, const unsigned int m)
+sub_cell_parts(CutCellRules<dim> &rules, const double *scaled, const double size,
+               const unsigned int m)
 {
-  CellPoints<dim>    result;
-  const unsigned int n_sub_cells = dim == 2 ? m * m : m * m * m;
+  const LagrangeBasis<dim> &basis = rules.basis;
+  CellPoints<dim>           result;
+  const unsigned int        n_sub_cells = dim == 2 ? m * m : m * m * m;
   for (unsigned int i = 0; i < n_sub_cells; ++i)
     {
       const Point<dim> corner = sub_cell_corner<dim>(i, m);
@@ -63,7 +64,7 @@ sub_cell_parts(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis, const 
 /** The same of a body that is a set of convex parts. */
 template <int dim>
 CellPoints<dim>
-sub_cell_parts(const std::vector<Polytope<dim>> &parts, const unsigned int degree,
+sub_cell_parts(const std::vector<Polytope<dim>> &parts, const unsigned int n_gauss,
                const double size, const unsigned int m)
 {
   // Divided by the planes between the sub-cells, the pieces of each sub-cell gathered.
@@ -90,7 +91,7 @@ sub_cell_parts(const std::vector<Polytope<dim>> &parts, const unsigned int degre
       for (unsigned int d = 0; d < dim; ++d, stride *= m)
         sub_cell += std::min(static_cast<unsigned int>(middle[d] * m), m - 1) * stride;
       CellPoints<dim> rule;
-      append_rule(piece, degree, size, rule);
+      append_rule(piece, n_gauss, size, rule);
       auto &[volume, moment] = sums[sub_cell];
       for (std::size_t q = 0; q < rule.points.size(); ++q)
         {
@@ -197,7 +198,7 @@ PointSeeding<dim>::at_quadrature_points(const unsigned int n_internal) const
 {
   MaterialPoints<dim> points(n_internal);
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
-    add_cell(points, a, quadrature_points(a), space.basis.degree + 1);
+    add_cell(points, a, quadrature_points(a), level_set_nodes.gauss().bulk);
   return points;
 }
 
@@ -207,7 +208,7 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
 {
   Assert(m > 0, ExcMessage("A cell needs a point."));
   MaterialPoints<dim> points(n_internal);
-  CutCellRules<dim>   rules(space.basis);
+  CutCellRules<dim>   rules = level_set_nodes.rules();
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const ActiveCell &cell       = space.cells()[a];
@@ -220,10 +221,10 @@ PointSeeding<dim>::on_sub_grid(const unsigned int m, const unsigned int n_intern
           if (exact.points.empty())
             continue;
           const CellCut<dim> cut = level_set_nodes.cut(cell.grid_cell, bodies[cell.body]);
-          parts                  = join_small_parts(
-                             cut.parts.empty() ? sub_cell_parts(rules, space.basis, cut.scaled.data(), size, m)
-                                               : sub_cell_parts(cut.parts, space.basis.degree, size, m),
-            0.1 * sub_volume);
+          parts                  = join_small_parts(cut.parts.empty()
+                                                      ? sub_cell_parts(rules, cut.scaled.data(), size, m)
+                                                      : sub_cell_parts(cut.parts, rules.gauss.bulk, size, m),
+                                   0.1 * sub_volume);
           if (parts.points.empty())
             parts = exact;
           const double factor = std::accumulate(exact.weights.begin(), exact.weights.end(), 0.)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/bodies/broad_phase.h>
+#include <scree/discretization/discretization_parameters.h>
 #include <scree/discretization/displacement_space.h>
 #include <scree/parameters/file.h>
 
@@ -18,8 +19,7 @@ template <int dim>
 struct BodiesInput
 {
   GridParameters<dim>                       grid;
-  unsigned int                              degree        = 1;
-  double                                    ghost_penalty = 0.1;
+  DiscretizationParameters                  discretization;
   std::map<std::string, MaterialParameters> materials;
   std::vector<BodyParameters<dim>>          bodies;
 
@@ -28,9 +28,8 @@ struct BodiesInput
     const ParameterSection root         = file.root();
     ParameterSection       grid_section = root.subsection("Grid", "");
     grid.declare(grid_section);
-    const ParameterSection discretization = root.subsection("Discretization", "");
-    discretization.entry("Degree", degree, "");
-    discretization.entry("Ghost penalty", ghost_penalty, "");
+    ParameterSection discretization_section = root.subsection("Discretization", "");
+    discretization.declare(discretization_section);
     materials = declare_materials(root);
     std::vector<std::string> names;
     for (const auto &material : materials)
@@ -62,22 +61,25 @@ struct CutBodies
     std::map<std::string, std::shared_ptr<const Material<dim>>> materials;
     for (const auto &[name, material] : input.materials)
       materials[name] = make_material<dim>(material);
-    const double h = grid.finest_size();
-    const double coarsest
+    const DiscretizationParameters &settings = input.discretization;
+    const double                    h        = grid.finest_size();
+    const double                    coarsest
       = input.grid.refinement == GridRefinement::uniform
           ? h
           : input.grid.cell_size(std::min(input.grid.coarsest_level, input.grid.finest_level));
-    bodies
-      = make_bodies<dim>(input.bodies, materials, {input.grid.lower, h / input.degree, grid.box()},
-                         std::max((shift + 2.) * h, 2. * coarsest));
-    pairs = BodyBoxes<dim>(bodies).pairs(2. * shift * h);
+    bodies = make_bodies<dim>(input.bodies, materials,
+                              {input.grid.lower, h / settings.degree_of_level_sets(), grid.box()},
+                              std::max((shift + 2.) * h, 2. * coarsest));
+    pairs  = BodyBoxes<dim>(bodies).pairs(2. * shift * h);
     grid.refine(bodies, pairs);
-    level_set_nodes            = std::make_unique<LevelSetNodes<dim>>(grid, input.degree);
+    level_set_nodes = std::make_unique<LevelSetNodes<dim>>(grid, settings.degree_of_level_sets(),
+                                                           settings.gauss_points());
     unsigned int n_multipliers = 0;
     for (const auto &body : bodies)
       for (const auto &condition : body.conditions)
         n_multipliers += condition.n_multipliers();
-    space = std::make_unique<DisplacementSpace<dim>>(grid, *level_set_nodes, bodies, n_multipliers);
+    space = std::make_unique<DisplacementSpace<dim>>(grid, settings.degree, *level_set_nodes,
+                                                     bodies, n_multipliers);
   }
 
   explicit CutBodies(const std::string &text)

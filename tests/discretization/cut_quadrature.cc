@@ -152,7 +152,7 @@ void
 check_inside_and_outside(const unsigned int degree)
 {
   const LagrangeBasis<dim>               basis(degree);
-  CutCellRules<dim>                      rules(basis);
+  CutCellRules<dim>                      rules(basis, {degree + 1, degree + 1});
   std::mt19937                           engine(3);
   std::uniform_real_distribution<double> number(-1., 1.);
   for (unsigned int trial = 0; trial < 50; ++trial)
@@ -240,7 +240,7 @@ TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions3D)
   for (const unsigned int degree : {1, 2})
     {
       const LagrangeBasis<3> basis(degree);
-      CutCellRules<3>        rules(basis);
+      CutCellRules<3>        rules(basis, {degree + 1, degree + 1});
       unsigned int           n_cut = 0;
       for (unsigned int trial = 0; trial < 60; ++trial)
         {
@@ -287,7 +287,7 @@ TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions3D)
 TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions2D)
 {
   const LagrangeBasis<2> basis(1);
-  CutCellRules<2>        rules(basis);
+  CutCellRules<2>        rules(basis, {2, 2});
   // phi = x + 2 y - 1.4: the face x = 1 is inside below y = 0.2, the face y = 0 everywhere.
   std::vector<double> nodal(4);
   for (unsigned int i = 0; i < 4; ++i)
@@ -307,6 +307,68 @@ TEST(CutQuadrature, FaceRulesIntegrateLinearFunctions2D)
       EXPECT_NEAR(moment[1 - face / 2], 0.25 * length[face] * length[face], 1e-14);
       EXPECT_NEAR(moment[face / 2], 0.5 * length[face] * (face % 2), 1e-14);
     }
+}
+
+/** The area of a disc or volume of a ball, with degrees of their own for displacement and phi. */
+template <int dim>
+double
+measured_volume(const std::string &degree, const std::string &level_set_degree,
+                const unsigned int level)
+{
+  const auto all
+    = [](const std::string &x) { return dim == 2 ? x + ", " + x : x + ", " + x + ", " + x; };
+  const CutBodies<dim> model(
+    grid_text(all("-1"), all("1"), all("2"), level) + "subsection Discretization\n set Degree = "
+    + degree + "\n set Level set degree = " + level_set_degree + "\nend\n"
+    + bodies_text({{"ball", ball_text(dim == 2 ? "0.013, 0.021" : "0.013, 0.021, 0.008", 0.7)}}));
+  EXPECT_EQ(model.space->basis.degree, std::stoul(degree));
+  return measure(model).volume;
+}
+
+template <int dim>
+void
+check_order_of_level_sets(const unsigned int level)
+{
+  const double exact = dim == 2 ? M_PI * 0.49 : 4. / 3. * M_PI * 0.343;
+  const auto   error
+    = [&](const std::string &degree, const std::string &of_level_sets, const unsigned int level) {
+        return std::abs(measured_volume<dim>(degree, of_level_sets, level) - exact);
+      };
+  const double coarse = error("1", "2", level), fine = error("1", "2", level + 2);
+  std::cout << "  " << dim << "D: " << coarse << ", " << fine << "\n";
+  EXPECT_GT(std::log2(coarse / fine) / 2., 2.8);
+  EXPECT_LT(fine, 0.05 * error("1", "as displacement", level + 2));
+  const double linear = error("2", "1", level + 1), of_degree_1 = error("1", "1", level + 1);
+  EXPECT_NEAR(linear, of_degree_1, 0.02 * of_degree_1);
+}
+
+TEST(CutQuadrature, VolumeIsOfTheDegreeOfLevelSets)
+{
+  check_order_of_level_sets<2>(2);
+  check_order_of_level_sets<3>(1);
+}
+
+TEST(CutQuadrature, BulkAndSurfaceHaveTheirOwnGaussPoints)
+{
+  const LagrangeBasis<2> basis(2);
+  std::vector<double>    phi(basis.n_nodes);
+  for (unsigned int i = 0; i < basis.n_nodes; ++i)
+    phi[i] = basis.node(i).distance(Point<2>(-0.3, -0.2)) - 0.8;
+  const auto mixed = CutCellRules<2>(basis, {2, 3}).rules(phi.data(), 0.5),
+             two   = CutCellRules<2>(basis, {2, 2}).rules(phi.data(), 0.5),
+             three = CutCellRules<2>(basis, {3, 3}).rules(phi.data(), 0.5);
+  EXPECT_EQ(mixed.inside.points, two.inside.points);
+  EXPECT_EQ(mixed.inside.weights, two.inside.weights);
+  EXPECT_EQ(mixed.surface.points, three.surface.points);
+  EXPECT_EQ(mixed.surface.normals, three.surface.normals);
+  EXPECT_LT(two.surface.points.size(), three.surface.points.size());
+
+  const CutBodies<2>     model(grid_text("-1, -1", "1, 1", "4, 4", 1)
+                               + "subsection Discretization\n set Bulk Gauss points = 4\nend\n"
+                               + bodies_text({{"disc", ball_text("0.013, 0.021", 0.7)}}));
+  const CutQuadrature<2> quadrature(*model.space, *model.level_set_nodes, model.bodies);
+  EXPECT_EQ(quadrature.whole_cell.points.size(), 16u);
+  EXPECT_EQ(model.level_set_nodes->gauss().surface, 2u);
 }
 } // namespace
 } // namespace scree

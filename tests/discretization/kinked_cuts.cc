@@ -277,7 +277,7 @@ TEST(KinkedCuts, FacesOnTheBackgroundBoxBelongToIt)
   // The body fills the box but for a half: its faces there are whole.
   const CutBodies<2> model(grid_text("0, 0", "1, 1", "4, 4", 0) + degree_text(1)
                            + bodies_text({{"body", shape(box("0, 0", "1, 0.5"))}}));
-  CutCellRules<2>    rules(model.space->basis);
+  CutCellRules<2>    rules = model.level_set_nodes->rules();
   for (unsigned int face = 0; face < 4; ++face)
     {
       double length = 0.;

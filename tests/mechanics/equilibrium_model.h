@@ -55,7 +55,7 @@ struct EquilibriumModel
       : input(text)
       , cut(input.bodies, communicator)
       , quadrature(*cut.space, *cut.level_set_nodes, cut.bodies)
-      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.ghost_penalty))
+      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.discretization.ghost_penalty))
       , kinematics(*cut.space, quadrature, cut.bodies, *small_cuts)
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.space, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)

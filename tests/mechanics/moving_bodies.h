@@ -70,8 +70,8 @@ struct MovingBodies
                          })
                              : du;
     const auto   motions = move_level_sets(cut.bodies, *cut.space, du, u, options);
-    cut.space
-      = std::make_unique<DisplacementSpace<dim>>(cut.grid, *cut.level_set_nodes, cut.bodies, 0);
+    cut.space = std::make_unique<DisplacementSpace<dim>>(cut.grid, cut.space->basis.degree,
+                                                         *cut.level_set_nodes, cut.bodies, 0);
     EXPECT_EQ(motions.front().n_unconverged, 0u);
     EXPECT_EQ(motions.front().n_islands, 0u);
     steps.push_back(increment);

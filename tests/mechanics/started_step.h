@@ -31,7 +31,7 @@ struct StartedStep
       , made_start(std::make_unique<const StepStart<dim>>(*cut.space, quadrature, cut.bodies,
                                                           points, parameters))
       , start(*made_start)
-      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.ghost_penalty))
+      , small_cuts(make_small_cut_treatment(*cut.space, input.bodies.discretization.ghost_penalty))
       , kinematics(
           *cut.space, quadrature, cut.bodies, *small_cuts, std::move(made_start),
           std::make_unique<const CutCellGauss<dim>>(*cut.space, quadrature, cut.bodies, start), 0.)

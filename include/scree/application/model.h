@@ -87,7 +87,7 @@ private:
   std::vector<Body<dim>> make_bodies_and_laws();
   /** Those that may touch before the pairs are found again. */
   std::vector<ContactPair> find_pairs() const;
-  /** Lattice nodes coincide with the support points of degree k on the finest cells. */
+  /** Lattice nodes coincide with the nodes of level sets on the finest cells. */
   LatticeFrame<dim> lattice_frame() const;
   /** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
   double lattice_margin() const;

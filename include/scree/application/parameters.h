@@ -34,11 +34,10 @@ struct OutputParameters
 template <int dim>
 struct Parameters
 {
-  std::string         title;
-  std::string         units; //!< names of those of length, stress and force; empty: not known
-  unsigned int        degree        = 1;
-  double              ghost_penalty = 0.1;
-  GridParameters<dim> grid;
+  std::string              title;
+  std::string              units; //!< names of those of length, stress and force; empty: not known
+  GridParameters<dim>      grid;
+  DiscretizationParameters discretization;
   std::map<std::string, MaterialParameters> materials;
   std::vector<BodyParameters<dim>>          bodies;
   ContactParameters                         contact;

@@ -14,15 +14,15 @@ namespace scree
  * kinks, 8 times (2D) or 4 times (3D), with the exact distances in each part. The points of all
  * parts that lie in the same quadrant of the cell, have similar sizes and the same normals of both
  * bodies are joined, with the sum of their weights: to one point at the mean of their places, which
- * integrates linear functions, or for k = 2 to 2 (dim - 1) points that have their second moments
- * along the surface.
+ * integrates linear functions, or for three Gauss points and more to 2 (dim - 1) points that have
+ * their second moments along the surface.
  */
 template <int dim>
 class KinkedSurface
 {
 public:
   KinkedSurface(const ExactDistances<dim> &distances, const std::vector<Body<dim>> &bodies,
-                const LagrangeBasis<dim> &basis);
+                const LevelSetNodes<dim> &level_set_nodes);
 
   /** Whether the cell needs it and the exact distances are known. */
   bool concerns(const ContactPair &pair, const GridCell<dim> &cell) const;
@@ -55,7 +55,6 @@ private:
 
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;
-  const LagrangeBasis<dim>     &basis;
   CutCellRules<dim>             rules;
   std::vector<Piece>            pieces;
 };

@@ -2,29 +2,10 @@
 
 #include <scree/discretization/displacement_space.h>
 
-#include <deal.II/non_matching/quadrature_generator.h>
-
-#include <memory>
 #include <vector>
 
 namespace scree
 {
-/** Quadrature points of one cell in unit coordinates; weights in physical measure. */
-template <int dim>
-struct CellPoints
-{
-  std::vector<dealii::Point<dim>>     points;
-  std::vector<double>                 weights;
-  std::vector<dealii::Tensor<1, dim>> normals; //!< surfaces only: unit, out of {phi < 0}
-
-  void append(const CellPoints &other)
-  {
-    points.insert(points.end(), other.points.begin(), other.points.end());
-    weights.insert(weights.end(), other.weights.begin(), other.weights.end());
-    normals.insert(normals.end(), other.normals.begin(), other.normals.end());
-  }
-};
-
 /** Points of many cells, one after the other: those of entry i are [begin[i], begin[i+1]). */
 template <int dim>
 struct QuadratureCache
@@ -41,43 +22,6 @@ struct QuadratureCache
     normals.insert(normals.end(), cell.normals.begin(), cell.normals.end());
     begin.push_back(points.size());
   }
-};
-
-/**
- * Quadrature on {phi < 0} and {phi = 0} in a cell, phi given by its nodal values of degree k: the
- * rules of dealii::NonMatching (Saye 2015) on the unit cell, with k+1 Gauss points per direction.
- */
-template <int dim>
-class CutCellRules
-{
-public:
-  explicit CutCellRules(const LagrangeBasis<dim> &basis);
-  ~CutCellRules();
-
-  /** Points inside and on the surface of a cut cell; `scaled` = phi/h, nudged. */
-  struct Rules
-  {
-    CellPoints<dim> inside, surface;
-  };
-  Rules rules(const double *scaled, const double cell_size);
-
-  /** The same of a cut; exact on its convex parts for polynomials of degree 2k+1 (surface: 3k). */
-  Rules rules(const CellCut<dim> &cut, const double cell_size);
-
-  /** Points of {phi < 0} on face `face` of a cell, in unit coordinates of the cell. */
-  CellPoints<dim> face_rule(const double *scaled, const double cell_size, const unsigned int face);
-
-  /** The same of a cell that is not outside. */
-  CellPoints<dim> face_rule(const CellCut<dim> &cut, const double cell_size,
-                            const unsigned int face);
-
-private:
-  class CellLevelSet;
-  const unsigned int                                                 degree;
-  std::unique_ptr<CellLevelSet>                                      level_set;
-  dealii::hp::QCollection<1>                                         gauss;
-  dealii::NonMatching::QuadratureGenerator<dim>                      generator;
-  std::unique_ptr<dealii::NonMatching::FaceQuadratureGenerator<dim>> face_generator;
 };
 
 /**

@@ -1,20 +1,16 @@
 #pragma once
 
+#include <scree/discretization/field_nodes.h>
 #include <scree/discretization/level_set_nodes.h>
 
 #include <deal.II/base/index_set.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace scree
 {
-/** Global number of an unknown. */
-using DofIndex = dealii::types::global_dof_index;
-
 /** A cell that carries unknowns of a body: owned ones first, then ghosts. */
 struct ActiveCell
 {
@@ -23,9 +19,6 @@ struct ActiveCell
   unsigned int field;
   bool         is_cut;
 };
-
-/** A linear combination of nodes: sum_i weight_i u(node_i), node given by its first unknown. */
-using NodeStencil = std::vector<std::pair<DofIndex, double>>;
 
 /** Sets the unknowns of a list of nodes, component by component. */
 template <int dim>
@@ -49,20 +42,34 @@ unknowns_of_nodes(const DofIndex *nodes, const unsigned int n_nodes)
 }
 
 /**
- * The unknowns. Bodies that are apart share a field: one hp DoFHandler (Q_k or nothing) per colour
- * of the conflict graph, where two bodies conflict if their active cells plus one layer of vertex
- * neighbours intersect. All fields form one numbering: the unknowns of a process are contiguous,
- * field after field; the dim components of a node are contiguous too, so that a node is named by
- * its first unknown; the components of rigid bodies come last, then multipliers: the trailing
- * unknowns, all on the last process (theory.md section 5).
+ * The space of displacements and its unknowns. Bodies that are apart share a field: one set of
+ * nodes per colour of the conflict graph, where two bodies conflict if their active cells plus one
+ * layer of vertex neighbours intersect. All fields form one numbering: the unknowns of a process
+ * are contiguous, field after field; the dim components of a node are contiguous too, so that a
+ * node is named by its first unknown; the components of rigid bodies come last, then multipliers:
+ * the trailing unknowns, all on the last process (theory.md section 5).
+ *
+ * What the rest of the program asks of the basis are functions on the unit cell, the same in all
+ * cells, in terms of its nodes: n_nodes, node(i), at which a linear function has its i-th
+ * coefficient, evaluate_values(), evaluate_gradients(), evaluate(). It is a member, not an
+ * interface, so that kernels are compiled for it. Another basis, B-splines on uniform cells, has
+ * these functions and one that makes its FieldNodes, as lagrange_nodes() does; nothing else here or
+ * in other modules depends on which one it is.
  */
 template <int dim>
 class DisplacementSpace
 {
 public:
-  /** @param n_multipliers unknowns appended for mean supports, owned by the last process */
-  DisplacementSpace(const BackgroundGrid<dim> &grid, const LevelSetNodes<dim> &level_set_nodes,
-                    const std::vector<Body<dim>> &bodies, const unsigned int n_multipliers);
+  using Basis = LagrangeBasis<dim>;
+
+  /**
+   * @param degree          of the basis
+   * @param level_set_nodes which tell where the bodies are
+   * @param n_multipliers   unknowns appended for mean supports, owned by the last process
+   */
+  DisplacementSpace(const BackgroundGrid<dim> &grid, const unsigned int degree,
+                    const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies,
+                    const unsigned int n_multipliers);
 
   const std::vector<ActiveCell> &cells() const
   {
@@ -104,6 +111,18 @@ public:
   /** Values of the basis functions of an active cell and their gradients in space [1/L]. */
   void evaluate_basis(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                       ShapeValues<dim> &shape) const;
+
+  /** Of the polynomials to which volume changes are projected, against locking: k - 1. */
+  unsigned int volume_degree() const
+  {
+    return basis.degree - 1;
+  }
+
+  /** How the constant c of int_F h |grad v|^2 <= c int |grad v|^2 grows with the degree: k^2. */
+  double trace_factor() const
+  {
+    return double(basis.degree) * basis.degree;
+  }
 
   /** Unit coordinates of a point in an active cell. */
   dealii::Point<dim> unit_point(const unsigned int        active_cell,
@@ -158,7 +177,7 @@ public:
 
   unsigned int n_fields() const
   {
-    return dof_handlers.size();
+    return active_of_grid_cell.size();
   }
 
   unsigned int field_of_body(const unsigned int body) const
@@ -166,15 +185,16 @@ public:
     return colour[body];
   }
 
-  const LagrangeBasis<dim>   basis;
+  const Basis                basis;
   const BackgroundGrid<dim> &grid;
 
 private:
   void classify(const LevelSetNodes<dim> &level_set_nodes, const std::vector<Body<dim>> &bodies);
   void colour_bodies(const unsigned int n_bodies);
-  void distribute();
-  void list_nodes();
-  void collect_constraints();
+  /** Joins the numberings of the fields to one. */
+  void        number(const std::vector<FieldNodes> &of_fields);
+  void        list_nodes(const std::vector<FieldNodes> &of_fields);
+  void        collect_constraints(const std::vector<FieldNodes> &of_fields);
   DofIndex    global_index(const unsigned int field, const DofIndex local) const;
   NodeStencil local_stencil(const unsigned int body, const dealii::Point<dim> &point) const;
 
@@ -185,7 +205,6 @@ private:
   /** Bodies in each grid cell of this process, with whether it is cut. */
   std::vector<std::vector<std::pair<unsigned int, bool>>> bodies_of_cell;
   std::vector<unsigned int>                               colour; //!< field of each body
-  std::vector<std::unique_ptr<dealii::DoFHandler<dim>>>   dof_handlers;
   std::vector<ActiveCell>                                 active_cells;
   std::vector<std::vector<int>>      active_of_grid_cell; //!< [field][grid cell], -1: none
   std::vector<DofIndex>              cell_nodes;

@@ -4,6 +4,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 
 namespace scree
@@ -48,6 +49,25 @@ public:
     for (unsigned int d = 0; d < dim; ++d, rest /= n_1d)
       point[d] = double(rest % n_1d) / degree;
     return point;
+  }
+
+  /** The node at vertex `v` of the cell, in deal.II's order. */
+  unsigned int vertex(const unsigned int v) const
+  {
+    unsigned int node = 0, stride = degree;
+    for (unsigned int d = 0; d < dim; ++d, stride *= n_1d)
+      node += ((v >> d) & 1u) * stride;
+    return node;
+  }
+
+  /** Values of the factors in one direction, of which the functions are products. */
+  std::array<double, 3> values_1d(const double x) const
+  {
+    double                f[3] = {}, unused[3];
+    std::array<double, 3> result;
+    evaluate_1d(x, f, unused, unused);
+    std::copy(f, f + 3, result.begin());
+    return result;
   }
 
   /** Values only. */

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/cell_cut.h>
+#include <scree/discretization/cut_cell_rules.h>
 #include <scree/grid/background_grid.h>
 #include <scree/level_set/lattice.h>
 
@@ -9,15 +9,17 @@
 namespace scree
 {
 /**
- * Level sets as the finite element functions of degree k that quadrature and gaps use: nodal values
- * per cell, taken from a lattice at the cell's support points; hanging nodes are interpolated from
- * the coarser neighbour, so that contours stay closed (theory.md section 4).
+ * Level sets as the finite element functions that quadrature and gaps use, of a degree of their
+ * own, which need not be that of the displacement: nodal values per cell, taken from a lattice at
+ * the cell's support points; hanging nodes are interpolated from the coarser neighbour, so that
+ * contours stay closed (theory.md section 4).
  */
 template <int dim>
 class LevelSetNodes
 {
 public:
-  LevelSetNodes(const BackgroundGrid<dim> &grid, const unsigned int degree);
+  LevelSetNodes(const BackgroundGrid<dim> &grid, const unsigned int degree,
+                const GaussPoints gauss);
 
   /** Nodal values phi [L] of an owned cell, lexicographic, un-nudged. */
   void cell_values(const unsigned int cell, const Lattice<dim> &lattice, double *values) const;
@@ -39,6 +41,17 @@ public:
    */
   CellCut<dim> cut(const unsigned int cell, const Body<dim> &body) const;
 
+  const GaussPoints &gauss() const
+  {
+    return gauss_points;
+  }
+
+  /** The rules that integrate on such cuts. */
+  CutCellRules<dim> rules() const
+  {
+    return CutCellRules<dim>(lagrange, gauss_points);
+  }
+
   const LagrangeBasis<dim> &basis() const
   {
     return lagrange;
@@ -58,6 +71,7 @@ private:
 
   const BackgroundGrid<dim>            &grid;
   LagrangeBasis<dim>                    lagrange;
+  GaussPoints                           gauss_points;
   std::vector<std::vector<HangingNode>> hanging; //!< per owned cell, mostly empty
 };
 } // namespace scree

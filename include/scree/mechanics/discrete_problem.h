@@ -12,8 +12,7 @@ namespace scree
 /** What the discrete problem of a run is made with. */
 struct ProblemParameters
 {
-  unsigned int                    degree;        //!< of the basis
-  double                          ghost_penalty; //!< gamma
+  const DiscretizationParameters &discretization;
   double                          contact_shift; //!< bound on phi on the contact surface, in h
   const EnforcementParameters    &enforcement;
   const MovingGeometryParameters &moving;

@@ -10,7 +10,7 @@ namespace scree
  * Moves a point of the cut surface to the exact boundary next to it, with the normal and the share
  * of the area there: the foot y of x on the nearest smooth piece, dS by differences of y(x) along
  * the cut. Integrals of loads then have the error of the quadrature rule, not that of the cut,
- * O(h^2) at degree 1. Nothing changes on planes.
+ * O(h^2) for level sets of degree 1. Nothing changes on planes.
  */
 template <int dim>
 void move_to_boundary(const Shape<dim> &shape, const GridCell<dim> &cell,
@@ -21,7 +21,7 @@ void move_to_boundary(const Shape<dim> &shape, const GridCell<dim> &cell,
  * of a cell and that of the exact shape there: on the edge of the cut, half-way to the exact one.
  */
 template <int dim>
-CellPoints<dim> strip_on_face(const Shape<dim> &shape, const LagrangeBasis<dim> &basis,
+CellPoints<dim> strip_on_face(const Shape<dim> &shape, const CutCellRules<dim> &rules,
                               const GridCell<dim> &cell, const CellCut<dim> &cut,
                               const unsigned int face);
 
@@ -34,8 +34,7 @@ CellPoints<dim> strip_on_face(const Shape<dim> &shape, const LagrangeBasis<dim> 
  * @param selects none: all is selected
  */
 template <int dim>
-CellPoints<dim> load_rule(CutCellRules<dim> &rules, const LagrangeBasis<dim> &basis,
-                          const GridCell<dim> &cell, const Shape<dim> *shape,
-                          const CellCut<dim> &cut, const unsigned int face,
+CellPoints<dim> load_rule(CutCellRules<dim> &rules, const GridCell<dim> &cell,
+                          const Shape<dim> *shape, const CellCut<dim> &cut, const unsigned int face,
                           const std::function<bool(const dealii::Point<dim> &)> &selects);
 } // namespace scree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/base/enum_names.h>
+#include <scree/discretization/discretization_parameters.h>
 #include <scree/level_set/advection.h>
 #include <scree/parameters/section.h>
 
@@ -27,7 +28,8 @@ struct MovingGeometryParameters
   PointPlaces         places               = PointPlaces::sub_grid;
   unsigned int        points_per_direction = 0; //!< of a cell; 0: degree + 1
   DeformationTransfer deformation          = DeformationTransfer::reference_map;
-  double              support              = 1.75; //!< of moving least squares, in cells
+  int                 degree_of_fits       = as_displacement; //!< of moving least squares
+  double              support              = 1.75;            //!< of moving least squares, in cells
   IncrementMotion     motion               = IncrementMotion::reference_map;
   double              slope_tolerance      = 0.1;   //!< of ||grad phi| - 1| before reinitialisation
   double              largest_motion       = 2.;    //!< of a body in a step, in finest cells
@@ -35,5 +37,17 @@ struct MovingGeometryParameters
   bool                may_leave_box        = false; //!< whether bodies may be cut off by the box
 
   void declare(ParameterSection &section);
+
+  /** m of the m^dim points of a cell, with displacements of a degree. */
+  unsigned int points_of_cell(const unsigned int degree) const
+  {
+    return points_per_direction > 0 ? points_per_direction : degree + 1;
+  }
+
+  /** Of moving least squares, with displacements of a degree. */
+  unsigned int least_squares_degree(const unsigned int degree) const
+  {
+    return degree_of_fits == as_displacement ? degree : degree_of_fits;
+  }
 };
 } // namespace scree

@@ -19,13 +19,9 @@ class SystemSolver
 public:
   using Vector = typename Equilibrium<dim>::Vector;
 
-  /**
-   * @param degree of the basis
-   * @param n_contact_points of this process
-   */
-  SystemSolver(const LinearSolverParameters &parameters, const unsigned int degree,
-               const DisplacementSpace<dim> &space, Equilibrium<dim> &equilibrium,
-               const std::size_t n_contact_points, Timings &timings);
+  /** @param n_contact_points of this process */
+  SystemSolver(const LinearSolverParameters &parameters, const DisplacementSpace<dim> &space,
+               Equilibrium<dim> &equilibrium, const std::size_t n_contact_points, Timings &timings);
 
   /**
    * Solves K du = r to |r - K du| <= tolerance |r| or better, K at the last residual()

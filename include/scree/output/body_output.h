@@ -51,7 +51,8 @@ private:
     std::vector<dealii::Point<dim>> vertices;
   };
 
-  void cut_cell(const unsigned int active_cell, const std::vector<double> &phi);
+  void cut_cell(const unsigned int active_cell, const LagrangeBasis<dim> &basis,
+                const std::array<double, max_nodes_per_cell<dim>> &phi);
   /** Of all rigid bodies, on the first process. */
   std::vector<RigidPiece> cut_rigid_bodies() const;
   void cut_rigid_body(const unsigned int body, std::vector<RigidPiece> &pieces) const;
