@@ -1,4 +1,5 @@
 #include <scree/application/contact_closing.h>
+#include <scree/application/implicit_stepper.h>
 
 #include <algorithm>
 
@@ -6,7 +7,7 @@ namespace scree
 {
 template <int dim>
 ContactClosing<dim>::ContactClosing(const StepControl &step_control, Model<dim> &model,
-                                    Stepper<dim> &stepper, RunLog &run_log)
+                                    ImplicitStepper<dim> &stepper, RunLog &run_log)
     : step_control(step_control)
     , model(model)
     , stepper(stepper)

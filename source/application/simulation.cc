@@ -1,7 +1,6 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
-#include <scree/mechanics/existence.h>
 #include <scree/output/region_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,7 +10,8 @@ namespace scree
 {
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
-                            const MPI_Comm communicator, const Checkpoint<dim> *checkpoint)
+                            const MPI_Comm communicator, const Checkpoint<dim> *checkpoint,
+                            const StepperFactory<dim> &stepper_of)
     : parameters(parameters)
     , communicator(communicator)
     , directory(output_directory)
@@ -19,8 +19,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
     , report(run_log)
     , step_control(parameters.time)
     , model(this->parameters, step_control.step_size(), communicator, run_log)
-    , stepper(this->parameters, step_control, model, run_log)
-    , closing(step_control, model, stepper, run_log)
+    , stepper(stepper_of(this->parameters, step_control, model, run_log))
     , results(directory, model.state().bodies, parameters.output.probes, model.pairs_change())
     , saver(this->parameters.output, directory, communicator, run_log,
             [this]() { return collect(); })
@@ -53,23 +52,21 @@ Simulation<dim>::run()
 {
   const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
   dealii::Timer      wall;
-  Tries              tries;
-  has_slid = step_control.n_accepted() > 0;
+  unsigned int       n_attempts = 0; // of the present step
   if (!step_control.finished())
     require_prescribable();
-  closing.resolve_overlap();
-  if (step_control.n_accepted() == 0)
-    closing.settle();
+  stepper->begin();
   while (!step_control.finished())
     {
-      Attempt<dim> attempt = stepper.attempt();
+      shorten_step();
+      Attempt<dim> attempt = stepper->attempt();
+      ++n_attempts;
       if (!attempt.is_accepted())
         {
-          try_again(attempt, tries);
+          try_again(attempt);
           continue;
         }
-      attempt.record.attempts = tries.n;
-      tries                   = Tries();
+      attempt.record.attempts = std::exchange(n_attempts, 0);
       finish_step(attempt, wall.wall_time());
     }
   finish();
@@ -77,9 +74,21 @@ Simulation<dim>::run()
 
 template <int dim>
 void
+Simulation<dim>::shorten_step()
+{
+  const double size = step_control.step_size();
+  require(step_control.shorten(stepper->largest_step()), "Time",
+          "the smallest step is longer than " + short_number(stepper->largest_step())
+            + ", the largest that can be taken at time " + short_number(step_control.time()),
+          "use more steps, or a smaller Minimum step fraction");
+  if (model.is_moving() && step_control.step_size() < size)
+    model.begin_again(step_control.step_size());
+}
+
+template <int dim>
+void
 Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
-  has_slid = true;
   step_control.accept(attempt.record.newton_iterations);
   write_results(attempt.record);
   const double done = step_control.time() / parameters.time.end_time;
@@ -99,11 +108,9 @@ Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 
 template <int dim>
 void
-Simulation<dim>::try_again(const Attempt<dim> &attempt, Tries &tries)
+Simulation<dim>::try_again(const Attempt<dim> &attempt)
 {
-  ++tries.n;
-  if (attempt.outcome == Attempt<dim>::Outcome::unsolved
-      && finds_another_way(attempt.record.time, tries))
+  if (attempt.outcome == Attempt<dim>::Outcome::unsolved && stepper->finds_another_way())
     return;
   require(step_control.reject(), "Time",
           "the load step to time " + short_number(attempt.record.time)
@@ -114,23 +121,6 @@ Simulation<dim>::try_again(const Attempt<dim> &attempt, Tries &tries)
                    + short_number(100. * step_control.step_fraction()) + "% of its length");
   if (model.is_moving())
     model.begin_again(step_control.step_size());
-}
-
-template <int dim>
-bool
-Simulation<dim>::finds_another_way(const double time, Tries &tries)
-{
-  require_equilibrium_exists(model.problem(), model.state(), time);
-  if (!tries.has_turned && !model.problem().equilibrium().free_bodies().empty())
-    {
-      // The other way, after a fall, see Equilibrium::set_second_attempt().
-      closing.settle();
-      stepper.set_second_attempt(!stepper.second_attempt());
-      tries.has_turned = true;
-      return true;
-    }
-  stepper.set_second_attempt(tries.has_turned);
-  return tries.has_turned && !std::exchange(has_slid, true) && closing.close_without_friction();
 }
 
 template <int dim>
@@ -240,13 +230,13 @@ Checkpoint<dim>
 Simulation<dim>::collect() const
 {
   Checkpoint<dim> result;
-  result.program           = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
-  result.parameters        = parameters.resolved;
-  result.steps             = step_control.record();
-  result.results           = results.record();
-  result.warnings          = run_log.warnings;
-  result.is_second_attempt = stepper.second_attempt();
-  result.state             = model.gathered();
+  result.program    = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
+  result.parameters = parameters.resolved;
+  result.steps      = step_control.record();
+  result.results    = results.record();
+  result.warnings   = run_log.warnings;
+  result.stepper    = stepper->recorded();
+  result.state      = model.gathered();
   return result;
 }
 
@@ -258,7 +248,7 @@ Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
   const double time   = step_control.time();
   run_log.warnings    = checkpoint.warnings;
   fraction_at_restart = time / parameters.time.end_time;
-  stepper.set_second_attempt(checkpoint.is_second_attempt);
+  stepper->resume(checkpoint.stepper);
   model.restore(checkpoint.state, time, step_control.step_size(), directory);
   const DiscreteProblem<dim> &problem = model.problem();
   results.set_discretization(problem.space, problem.level_set_nodes);

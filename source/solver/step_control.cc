@@ -119,6 +119,18 @@ StepControl::reject()
   return true;
 }
 
+bool
+StepControl::shorten(const double size)
+{
+  while (step_size() > size)
+    {
+      if (step_ticks() == 1)
+        return false;
+      length = step_ticks() / 2;
+    }
+  return true;
+}
+
 StepControlRecord
 StepControl::record() const
 {

@@ -2,9 +2,12 @@
 // state takes the next step to the last bit as the one that went on.
 #include <gtest/gtest.h>
 
-#include <scree/application/stepper.h>
+#include <scree/application/implicit_stepper.h>
+#include <scree/application/simulation.h>
 
 #include <string>
+
+#include "../output/files.h"
 
 using namespace scree;
 using namespace dealii;
@@ -118,7 +121,7 @@ struct ModelRun
   RunLog              run_log;
   StepControl         control;
   Model<2>            model;
-  Stepper<2>          stepper;
+  ImplicitStepper<2>  stepper;
 };
 
 /** That all numbers of two states are the same. */
@@ -160,7 +163,85 @@ expect_goes_on(const std::string &text)
   EXPECT_GT(first.model.state().energies.dissipation, 0.);
   expect_same(first.model.state(), second.model.state());
 }
+
+/** Leaves everything where it is, by steps of 0.2 at most, each at the second attempt. */
+class StandStill : public Stepper<2>
+{
+public:
+  StandStill(const StepControl &control, Model<2> &model, std::vector<double> &ends)
+      : control(control)
+      , model(model)
+      , ends(ends)
+  {
+  }
+
+  void begin() override
+  {
+    ends = {0.};
+  }
+
+  double largest_step() const override
+  {
+    return 0.2;
+  }
+
+  Attempt<2> attempt() override
+  {
+    Attempt<2> result;
+    result.record.step = control.n_accepted() + 1;
+    result.record.time = control.next_time();
+    if (!is_second)
+      return result;
+    is_second         = false;
+    auto &equilibrium = model.problem().equilibrium();
+    auto  u = model.state().displacement, r = u;
+    equilibrium.set_time(result.record.time, u);
+    u = model.state().displacement;
+    equilibrium.residual(u, model.state().contact, r);
+    equilibrium.accept(u, model.state().contact);
+    model.accept(u, result.record.time);
+    ends.push_back(model.state().time);
+    result.outcome = Attempt<2>::Outcome::accepted;
+    return result;
+  }
+
+  bool finds_another_way() override
+  {
+    return is_second = true;
+  }
+
+  StepperRecord recorded() const override
+  {
+    return {};
+  }
+
+  void resume(const StepperRecord &) override
+  {
+  }
+
+private:
+  const StepControl   &control;
+  Model<2>            &model;
+  std::vector<double> &ends; //!< of all steps, beginning with 0
+  bool                 is_second = false;
+};
 } // namespace
+
+TEST(Stepper, AnotherOneTakesTheStepsOfARun)
+{
+  const Directory     directory;
+  std::vector<double> ends;
+  Simulation<2>       simulation(
+          ModelRun::read(block_on_bed("")), directory.path, MPI_COMM_WORLD, nullptr,
+          [&](const Parameters<2> &, const StepControl &control, Model<2> &model, RunLog &) {
+      return std::make_unique<StandStill>(control, model, ends);
+    });
+  simulation.run();
+  ASSERT_EQ(ends.size(), 9u); // 0.25 is too large
+  for (unsigned int i = 0; i < ends.size(); ++i)
+    EXPECT_EQ(ends[i], 0.125 * i);
+  EXPECT_EQ(simulation.get_model().state().displacement.linfty_norm(), 0.);
+}
 
 TEST(Stepper, FixedGeometryGoesOnFromGatheredState)
 {
@@ -182,8 +263,8 @@ TEST(Stepper, RejectedStepLeavesState)
   // Of the same model, for a whole step.
   TimeParameters whole = run.parameters.time;
   whole.steps          = 1;
-  StepControl control(whole);
-  Stepper<2>  stepper(run.parameters, control, run.model, run.run_log);
+  StepControl        control(whole);
+  ImplicitStepper<2> stepper(run.parameters, control, run.model, run.run_log);
   EXPECT_EQ(stepper.attempt().outcome, Attempt<2>::Outcome::too_large);
   expect_same(before, run.model.state());
   EXPECT_EQ(before.energies.external_work, run.model.state().energies.external_work);

@@ -113,6 +113,17 @@ TEST(StepControl, GivesUpAtTheMinimum)
   EXPECT_FALSE(never.reject());
 }
 
+TEST(StepControl, StepsAreShortenedWithoutARejection)
+{
+  StepControl control(times(1., 2, 1. / 8));
+  EXPECT_TRUE(control.shorten(0.5));
+  EXPECT_EQ(control.next_time(), 0.5);
+  EXPECT_TRUE(control.shorten(0.2));
+  EXPECT_EQ(control.next_time(), 0.125);
+  EXPECT_FALSE(control.shorten(0.01));
+  EXPECT_EQ(control.n_rejected(), 0u);
+}
+
 TEST(TimeParameters, AreReadAndChecked)
 {
   ParameterFile  good = ParameterFile::from_string("set End time = 2.5\nset Steps = 4\n");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/stepper.h>
 #include <scree/base/warnings.h>
 #include <scree/output/results.h>
 #include <scree/solver/step_control.h>
@@ -23,13 +24,13 @@ struct Checkpoint
   StepControlRecord                  steps;
   ResultsRecord                      results;
   Warnings                           warnings;
-  bool                               is_second_attempt = false;
+  StepperRecord                      stepper;
   GatheredState<dim>                 state;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &program &parameters &steps &results &warnings &is_second_attempt &state;
+    archive &program &parameters &steps &results &warnings &stepper &state;
   }
 
   /** Writes it into a directory (write_checkpoint_file()); by one process. Returns its bytes. */

@@ -1,12 +1,16 @@
 #pragma once
 
-#include <scree/application/stepper.h>
+#include <scree/application/model.h>
+#include <scree/solver/step_control.h>
 
 #include <optional>
 #include <vector>
 
 namespace scree
 {
+template <int dim>
+class ImplicitStepper;
+
 /** What brings bodies into contact before a step, so that friction begins with tau = 0. */
 template <int dim>
 class ContactClosing
@@ -15,7 +19,7 @@ public:
   using Vector = typename Equilibrium<dim>::Vector;
 
   /** All of these outlive it. */
-  ContactClosing(const StepControl &step_control, Model<dim> &model, Stepper<dim> &stepper,
+  ContactClosing(const StepControl &step_control, Model<dim> &model, ImplicitStepper<dim> &stepper,
                  RunLog &run_log);
 
   /**
@@ -41,10 +45,10 @@ private:
   /** Takes u, which the equilibrium accepted, as the state at the present time. */
   void go_on_from(const Vector &u, MaterialPoints<dim> &&points);
 
-  const StepControl &step_control;
-  Model<dim>        &model;
-  Stepper<dim>      &stepper;
-  RunLog            &run_log;
-  unsigned int       n_iterations = 0; //!< of the last part
+  const StepControl    &step_control;
+  Model<dim>           &model;
+  ImplicitStepper<dim> &stepper;
+  RunLog               &run_log;
+  unsigned int          n_iterations = 0; //!< of the last part
 };
 } // namespace scree

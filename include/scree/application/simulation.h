@@ -1,11 +1,11 @@
 #pragma once
 
 #include <scree/application/checkpoint_saver.h>
-#include <scree/application/contact_closing.h>
 #include <scree/application/model.h>
 #include <scree/application/stepper.h>
 #include <scree/output/run_report.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,10 +22,12 @@ public:
   /**
    * @param output_directory where results go; must exist
    * @param checkpoint       of the run in that directory, which goes on after it; null: a new run
+   * @param stepper_of       makes what takes the steps
    * @throws UserError if the set-up is impossible, or the checkpoint belongs to something else
    */
   Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
-             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint = nullptr);
+             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint = nullptr,
+             const StepperFactory<dim> &stepper_of = make_stepper<dim>);
 
   /** All load steps. @throws UserError if a step cannot be solved. */
   void run();
@@ -50,20 +52,13 @@ public:
   }
 
 private:
-  /** How the present step was tried so far. */
-  struct Tries
-  {
-    unsigned int n          = 1;
-    bool         has_turned = false; //!< to the other kind of attempt
-  };
-
   void report_set_up();
+  /** Makes the step that comes as short as the stepper needs it. */
+  void shorten_step();
   /** Writes the accepted step, moves the geometry, saves. */
   void finish_step(Attempt<dim> &attempt, const double wall_time);
-  /** Prepares another attempt of a step: another kind of attempt, or a shorter step. */
-  void try_again(const Attempt<dim> &attempt, Tries &tries);
-  /** Whether the step that was not solved may be tried at its full length in another way. */
-  bool finds_another_way(const double time, Tries &tries);
+  /** Prepares another attempt of a step: in another way, or of a shorter step. */
+  void try_again(const Attempt<dim> &attempt);
   void write_results(const StepRecord &record);
   void save_if_due();
   /** Saves and @throws Interrupted if a signal asked for it (collective). */
@@ -75,18 +70,16 @@ private:
   /** Goes to the state of a checkpoint; the problem is set up. */
   void resume(const Checkpoint<dim> &checkpoint);
 
-  const Parameters<dim> parameters;
-  const MPI_Comm        communicator;
-  const std::string     directory;
-  RunLog                run_log;
-  RunReport<dim>        report;
-  StepControl           step_control;
-  Model<dim>            model;
-  Stepper<dim>          stepper;
-  ContactClosing<dim>   closing;
-  Results<dim>          results;
-  CheckpointSaver<dim>  saver;
-  double                fraction_at_restart = 0.; //!< of the end time
-  bool                  has_slid = false; //!< bodies may have: contact was closed with friction
+  const Parameters<dim>               parameters;
+  const MPI_Comm                      communicator;
+  const std::string                   directory;
+  RunLog                              run_log;
+  RunReport<dim>                      report;
+  StepControl                         step_control;
+  Model<dim>                          model;
+  const std::unique_ptr<Stepper<dim>> stepper;
+  Results<dim>                        results;
+  CheckpointSaver<dim>                saver;
+  double                              fraction_at_restart = 0.; //!< of the end time
 };
 } // namespace scree

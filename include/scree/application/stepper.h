@@ -1,13 +1,11 @@
 #pragma once
 
 #include <scree/application/model.h>
-#include <scree/contact/status_changes.h>
 #include <scree/output/run_report.h>
-#include <scree/solver/newton.h>
+#include <scree/solver/step_control.h>
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <functional>
+#include <memory>
 
 namespace scree
 {
@@ -32,64 +30,58 @@ struct Attempt
   }
 };
 
+/** What a Stepper keeps from step to step beside the State. */
+struct StepperRecord
+{
+  bool is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &is_second_attempt;
+  }
+};
+
 /**
- * Finds the equilibrium at the end of a step by Newton's method, and checks it (theory.md section
- * 3, steps 5 and 6). The state of the model changes if a step is accepted and not before; then
- * Model::move_geometry() is next on a moving geometry.
+ * Takes the bodies of a model from one load step to the next. The state of the model changes if a
+ * step is accepted and not before; then Model::move_geometry() is next on a moving geometry. All
+ * functions are collective.
  */
 template <int dim>
 class Stepper
 {
 public:
-  using Vector = typename Equilibrium<dim>::Vector;
+  virtual ~Stepper() = default;
 
-  /** All of these outlive it. */
-  Stepper(const Parameters<dim> &parameters, const StepControl &step_control, Model<dim> &model,
-          RunLog &run_log);
+  /** What has to be done before the first step of a run, also of one that is resumed. */
+  virtual void begin() = 0;
 
-  /** One attempt of the step that the step control says (collective). */
-  Attempt<dim> attempt();
+  /** The largest step of the present state [time]; infinity: any. */
+  virtual double largest_step() const = 0;
 
-  /** How steps are tried, see Equilibrium::set_second_attempt(). */
-  void set_second_attempt(const bool is_second)
-  {
-    is_second_attempt = is_second;
-  }
-  bool second_attempt() const
-  {
-    return is_second_attempt;
-  }
+  /** One attempt of the step that the step control says. */
+  virtual Attempt<dim> attempt() = 0;
 
   /**
-   * Newton's method from u, at the loads and conditions that were set; of no step: nothing is said
-   * if contact carries nothing in the end.
+   * After an attempt that was unsolved: whether there is another way to take the whole step, which
+   * the next attempt() takes.
+   *
+   * @throws UserError if there cannot be a solution
    */
-  NewtonResult solve(Vector &u);
+  virtual bool finds_another_way() = 0;
 
-  /** The material points at u, and why they moved too far for the geometry; empty: they did not. */
-  std::pair<MaterialPoints<dim>, std::string> move_points(const Vector &u) const;
-
-private:
-  NewtonResult solve_step(Vector &u);
-  /** Newton's method, again while the enforcement of contact changes its multipliers. */
-  NewtonResult solve_enforced(const Newton &newton, Vector &u);
-  /** Whether all contact pressure went in the last solution, though there was some. */
-  bool              has_lost_contact(const NewtonResult &result) const;
-  NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
-                                        const NewtonResult &result);
-  Newton::Hooks     hooks();
-  void              set_hooks_of_mass(Newton::Hooks &hooks);
-  void              observe(const NewtonIteration &iteration);
-  LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
-
-  const Parameters<dim> &parameters;
-  const StepControl     &step_control;
-  Model<dim>            &model;
-  RunLog                &run_log;
-  StepRecord             record;                    //!< of the step being solved
-  bool                   is_second_attempt = false; //!< of all steps until it changes
-  bool                   is_transient      = false; //!< K has more artificial mass
-  double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
-  StatusChanges status_changes;
+  virtual StepperRecord recorded() const                    = 0;
+  virtual void          resume(const StepperRecord &record) = 0;
 };
+
+/** Makes a Stepper; all arguments outlive it. */
+template <int dim>
+using StepperFactory = std::function<std::unique_ptr<Stepper<dim>>(
+  const Parameters<dim> &, const StepControl &, Model<dim> &, RunLog &)>;
+
+/** The one that the parameters ask for. */
+template <int dim>
+std::unique_ptr<Stepper<dim>> make_stepper(const Parameters<dim> &parameters,
+                                           const StepControl &step_control, Model<dim> &model,
+                                           RunLog &run_log);
 } // namespace scree

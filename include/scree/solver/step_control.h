@@ -89,6 +89,9 @@ public:
   /** The step failed: halves it. Returns false if it was already as small as allowed. */
   bool reject();
 
+  /** Halves the step until it is at most `size` [time]; false: it is as small as allowed before. */
+  bool shorten(const double size);
+
   StepControlRecord record() const;
 
   /**

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <scree/application/contact_closing.h>
+#include <scree/application/stepper.h>
+#include <scree/contact/status_changes.h>
+#include <scree/solver/newton.h>
+
+#include <string>
+#include <utility>
+
+namespace scree
+{
+/**
+ * Finds the equilibrium at the end of a step by Newton's method, and checks it (theory.md section
+ * 3, steps 5 and 6).
+ */
+template <int dim>
+class ImplicitStepper : public Stepper<dim>
+{
+public:
+  using Vector = typename Equilibrium<dim>::Vector;
+
+  /** All of these outlive it. */
+  ImplicitStepper(const Parameters<dim> &parameters, const StepControl &step_control,
+                  Model<dim> &model, RunLog &run_log);
+
+  /** Resolves overlap; lets free bodies fall before the first step. */
+  void          begin() override;
+  double        largest_step() const override;
+  Attempt<dim>  attempt() override;
+  bool          finds_another_way() override;
+  StepperRecord recorded() const override;
+  void          resume(const StepperRecord &record) override;
+
+  /**
+   * Newton's method from u, at the loads and conditions that were set; of no step: nothing is said
+   * if contact carries nothing in the end.
+   */
+  NewtonResult solve(Vector &u);
+
+  /** The material points at u, and why they moved too far for the geometry; empty: they did not. */
+  std::pair<MaterialPoints<dim>, std::string> move_points(const Vector &u) const;
+
+private:
+  NewtonResult solve_step(Vector &u);
+  /** Newton's method, again while the enforcement of contact changes its multipliers. */
+  NewtonResult solve_enforced(const Newton &newton, Vector &u);
+  /** Whether all contact pressure went in the last solution, though there was some. */
+  bool              has_lost_contact(const NewtonResult &result) const;
+  NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
+                                        const NewtonResult &result);
+  Newton::Hooks     hooks();
+  void              set_hooks_of_mass(Newton::Hooks &hooks);
+  void              observe(const NewtonIteration &iteration);
+  LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
+
+  const Parameters<dim> &parameters;
+  const StepControl     &step_control;
+  Model<dim>            &model;
+  RunLog                &run_log;
+  ContactClosing<dim>    closing;
+  StepRecord             record;                    //!< that is being solved
+  bool                   is_second_attempt = false; //!< of all steps until it changes
+  bool                   has_turned        = false; //!< this step, to the other kind of attempt
+  bool                   has_slid = false; //!< bodies may have: contact was closed with friction
+  bool                   is_transient = false; //!< K has more artificial mass
+  double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
+  StatusChanges status_changes;
+};
+} // namespace scree

@@ -1,0 +1,332 @@
+#include <scree/application/implicit_stepper.h>
+#include <scree/contact/contact_reach.h>
+#include <scree/mechanics/balance_checks.h>
+#include <scree/mechanics/existence.h>
+#include <scree/mechanics/first_guess.h>
+#include <scree/mechanics/material_update.h>
+#include <scree/mechanics/step_criteria.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scree
+{
+template <int dim>
+ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
+                                      const StepControl &step_control, Model<dim> &model,
+                                      RunLog &run_log)
+    : parameters(parameters)
+    , step_control(step_control)
+    , model(model)
+    , run_log(run_log)
+    , closing(step_control, model, *this, run_log)
+{
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::begin()
+{
+  has_slid = step_control.n_accepted() > 0;
+  closing.resolve_overlap();
+  if (step_control.n_accepted() == 0)
+    closing.settle();
+}
+
+template <int dim>
+double
+ImplicitStepper<dim>::largest_step() const
+{
+  return std::numeric_limits<double>::infinity();
+}
+
+template <int dim>
+bool
+ImplicitStepper<dim>::finds_another_way()
+{
+  require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
+  if (!has_turned && !model.problem().equilibrium().free_bodies().empty())
+    {
+      // The other way, after a fall, see Equilibrium::set_second_attempt().
+      closing.settle();
+      is_second_attempt = !is_second_attempt;
+      has_turned        = true;
+      return true;
+    }
+  is_second_attempt = has_turned;
+  return has_turned && !std::exchange(has_slid, true) && closing.close_without_friction();
+}
+
+template <int dim>
+StepperRecord
+ImplicitStepper<dim>::recorded() const
+{
+  return {is_second_attempt};
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::resume(const StepperRecord &record)
+{
+  is_second_attempt = record.is_second_attempt;
+}
+
+template <int dim>
+Attempt<dim>
+ImplicitStepper<dim>::attempt()
+{
+  const double          time    = step_control.next_time();
+  DiscreteProblem<dim> &problem = model.problem();
+  RunReport<dim>        report(run_log);
+  record      = StepRecord();
+  record.step = step_control.n_accepted() + 1;
+  record.time = time;
+  problem.equilibrium().set_second_attempt(is_second_attempt);
+  auto u = first_guess<dim>(problem, model.state(), time, [&](const Vector &b, Vector &x) {
+    solve_linear_system(b, parameters.linear_solver.tolerance, x);
+  });
+  const NewtonResult result = solve_step(u);
+  record.newton_iterations  = result.iterations;
+  record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
+  Attempt<dim> attempt;
+  attempt.record = record;
+  if (!result.converged())
+    {
+      report.failure(record, result, problem.contact(), status_changes, problem.communicator());
+      return attempt;
+    }
+  report.loose(problem, time);
+  const auto balances = require_balance(problem, u, parameters.newton, time, run_log);
+  if (model.is_moving())
+    {
+      problem.equilibrium().turn(u);
+      const Timings::Scope scope(run_log.timings, "material points");
+      std::string          reason;
+      std::tie(attempt.points, reason) = move_points(u);
+      if (!reason.empty())
+        {
+          run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(time)
+                           + " is too large: " + reason);
+          attempt.outcome = Attempt<dim>::Outcome::too_large;
+          return attempt;
+        }
+    }
+  else
+    require_small_rotations(problem, balances, model.state(), time);
+  problem.equilibrium().accept(u, model.state().contact);
+  require_contact_within_reach(problem.contact(), problem.shift(), problem.communicator());
+  if (!model.is_moving())
+    {
+      report.meetings(problem, parameters.contact, u);
+      warn_of_rotations(problem, balances, u, time, run_log);
+    }
+  model.accept(u, time);
+  attempt.outcome = Attempt<dim>::Outcome::accepted;
+  has_turned      = false;
+  has_slid        = true;
+  return attempt;
+}
+
+template <int dim>
+std::pair<MaterialPoints<dim>, std::string>
+ImplicitStepper<dim>::move_points(const Vector &u) const
+{
+  const DiscreteProblem<dim> &problem = model.problem();
+  const MaterialPoints<dim>  &points  = model.state().points;
+  auto moved  = problem.kinematics->moved(points, problem.equilibrium().at_points(u));
+  auto reason = why_too_large(problem, points, moved);
+  return {std::move(moved), std::move(reason)};
+}
+
+template <int dim>
+LinearSolveResult
+ImplicitStepper<dim>::solve_linear_system(const Vector &r, const double tolerance, Vector &du)
+{
+  return model.problem().solver().solve(r, tolerance, !is_transient && !is_second_attempt, du);
+}
+
+template <int dim>
+Newton::Hooks
+ImplicitStepper<dim>::hooks()
+{
+  DiscreteProblem<dim>      &problem     = model.problem();
+  Equilibrium<dim>          &equilibrium = problem.equilibrium();
+  const ContactHistory<dim> &history     = model.state().contact;
+  Newton::Hooks              hooks;
+  hooks.residual = [&](const Vector &u, Vector &r) {
+    const Timings::Scope scope(run_log.timings, "residual");
+    equilibrium.residual(u, history, r);
+  };
+  hooks.balance = [&](Vector &u) {
+    const Timings::Scope scope(run_log.timings, "residual");
+    const bool           has_moved = equilibrium.balance_rigid_motions(u, history).has_value();
+    if (has_moved)
+      equilibrium.set_prescribed(u);
+    return has_moved;
+  };
+  hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
+    record.linear_iterations += solve_linear_system(r, tolerance, du).iterations;
+    problem.contact().laws().set_touching_holds(false);
+    equilibrium.shorten(du, problem.grid.finest_size());
+  };
+  hooks.is_geometric = [&](const Vector &r, const double tolerance) {
+    return equilibrium.is_geometric(r, tolerance);
+  };
+  hooks.reference = [&]() {
+    return std::max(equilibrium.force_scale(),
+                    equilibrium.round_off() / parameters.newton.relative_tolerance);
+  };
+  hooks.freeze = [&](const bool freeze) {
+    if (freeze)
+      problem.contact().laws().freeze(problem.contact().points(), problem.contact().responses());
+    else
+      problem.contact().laws().unfreeze();
+  };
+  hooks.observe = [&](const NewtonIteration &iteration) { observe(iteration); };
+  set_hooks_of_mass(hooks);
+  return hooks;
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::set_hooks_of_mass(Newton::Hooks &hooks)
+{
+  Equilibrium<dim> &equilibrium = model.problem().equilibrium();
+  const bool        has_mass    = !equilibrium.free_bodies().empty();
+  if (model.is_moving() && has_mass)
+    hooks.advance = [&](const Vector &du, Vector &u) { equilibrium.advance(du, u); };
+  hooks.set_mass = [&, has_mass](const double factor) {
+    is_transient = has_mass && factor > Equilibrium<dim>::default_mass_factor;
+    equilibrium.set_artificial_mass(factor);
+  };
+  hooks.mass_work = [&](const Vector &du) { return equilibrium.artificial_work(du); };
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::observe(const NewtonIteration &iteration)
+{
+  const DiscreteProblem<dim> &problem = model.problem();
+  const ContactPoints<dim>   &contact = problem.contact();
+  if (!problem.equilibrium().free_bodies().empty())
+    {
+      pressed = 0.;
+      for (unsigned int i = 0; i < contact.points().size(); ++i)
+        pressed += contact.points()[i].weight * std::abs(contact.responses()[i].pressure);
+      pressed      = dealii::Utilities::MPI::sum(pressed, problem.communicator());
+      most_pressed = std::max(most_pressed, pressed);
+    }
+  status_changes.count(contact);
+  const std::string text = "iteration " + std::to_string(iteration.number) + ", residual "
+                           + short_number(iteration.residual) + " of "
+                           + short_number(iteration.tolerance);
+  if (parameters.output.log_iterations)
+    run_log.log.line("  " + text + ", step length " + short_number(iteration.step_length));
+  run_log.log.progress(step_control.time() / parameters.time.end_time,
+                       "step " + std::to_string(record.step) + ", " + text);
+}
+
+template <int dim>
+NewtonResult
+ImplicitStepper<dim>::solve_enforced(const Newton &newton, Vector &u)
+{
+  const unsigned int max_updates = parameters.contact.enforcement.maximum_updates;
+  model.problem().contact().start_step(model.state().contact);
+  NewtonResult result = newton.solve(u);
+  for (unsigned int n = 0; result.converged() && !model.problem().contact().update_enforcement();
+       ++n)
+    {
+      if (n == max_updates)
+        {
+          result.status  = NewtonStatus::max_iterations;
+          result.message = "contact is not enforced after " + std::to_string(n)
+                           + " updates of the multipliers, see Contact/Augmented Lagrangian";
+          break;
+        }
+      const unsigned int n_before = result.iterations;
+      result                      = newton.solve(u);
+      result.iterations += n_before;
+    }
+  return result;
+}
+
+template <int dim>
+NewtonResult
+ImplicitStepper<dim>::solve(Vector &u)
+{
+  record = StepRecord();
+  model.problem().contact().laws().set_touching_holds(true);
+  pressed = most_pressed = 0.;
+  return solve_enforced(Newton(parameters.newton, hooks()), u);
+}
+
+template <int dim>
+bool
+ImplicitStepper<dim>::has_lost_contact(const NewtonResult &result) const
+{
+  return result.converged() && pressed < 1e-6 * most_pressed;
+}
+
+template <int dim>
+NewtonResult
+ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
+                                          const NewtonResult &result)
+{
+  DiscreteProblem<dim> &problem = model.problem();
+  Vector                v(start);
+  const double          pressed_before = pressed;
+  problem.contact().laws().set_sticks(true);
+  const unsigned int n_sticking = newton.solve(v).iterations;
+  problem.contact().laws().set_sticks(false);
+  const NewtonResult again = solve_enforced(newton, v);
+  NewtonResult       best  = result;
+  if (again.converged())
+    {
+      u    = v;
+      best = again;
+    }
+  else
+    {
+      pressed = pressed_before;
+      problem.equilibrium().residual(u, model.state().contact, v);
+    }
+  best.iterations = result.iterations + n_sticking + again.iterations;
+  return best;
+}
+
+template <int dim>
+NewtonResult
+ImplicitStepper<dim>::solve_step(Vector &u)
+{
+  model.problem().contact().laws().set_touching_holds(true);
+  pressed = most_pressed = 0.;
+  const Vector start(u);
+  const Newton newton(parameters.newton, hooks());
+  NewtonResult result = solve_enforced(newton, u);
+  if (has_lost_contact(result)) // Friction may hold what sticks at first.
+    result = solve_with_sticking(newton, start, u, result);
+  if (!has_lost_contact(result))
+    return result;
+  std::optional<UserError> error;
+  if (!model.is_moving())
+    error
+      = slide(model.problem(), model.state().contact, record.time, step_control.step_fraction());
+  if (error)
+    {
+      if (step_control.step_fraction() <= parameters.time.minimum_step_fraction)
+        throw UserError(*error);
+      result.status  = NewtonStatus::diverged;
+      result.message = "bodies slide along each other until nothing presses any more";
+      return result;
+    }
+  run_log.log.line("Warning: contact carries nothing at time " + short_number(record.time)
+                   + ": a body that nothing else holds moves away from what presses it");
+  return result;
+}
+
+template class ImplicitStepper<2>;
+template class ImplicitStepper<3>;
+} // namespace scree
