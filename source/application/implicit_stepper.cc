@@ -22,6 +22,7 @@ ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
     , step_control(step_control)
     , model(model)
     , run_log(run_log)
+    , scheme(make_time_scheme<dim>())
     , closing(step_control, model, *this, run_log)
 {
 }
@@ -85,7 +86,8 @@ ImplicitStepper<dim>::attempt()
   record.step = step_control.n_accepted() + 1;
   record.time = time;
   problem.equilibrium().set_second_attempt(is_second_attempt);
-  auto u = first_guess<dim>(problem, model.state(), time, [&](const Vector &b, Vector &x) {
+  problem.equilibrium().set_inertia(scheme->inertia(*problem.kinematics, model.state(), time));
+  auto u = first_guess<dim>(problem, *scheme, model.state(), time, [&](const Vector &b, Vector &x) {
     solve_linear_system(b, parameters.linear_solver.tolerance, x);
   });
   const NewtonResult result = solve_step(u);
@@ -123,7 +125,7 @@ ImplicitStepper<dim>::attempt()
       report.meetings(problem, parameters.contact, u);
       warn_of_rotations(problem, balances, u, time, run_log);
     }
-  model.accept(u, time);
+  model.accept(u, time, scheme->rates(model.state(), u, time));
   attempt.outcome = Attempt<dim>::Outcome::accepted;
   has_turned      = false;
   has_slid        = true;
@@ -258,6 +260,7 @@ NewtonResult
 ImplicitStepper<dim>::solve(Vector &u)
 {
   record = StepRecord();
+  model.problem().equilibrium().set_inertia({});
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   return solve_enforced(Newton(parameters.newton, hooks()), u);

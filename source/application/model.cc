@@ -114,7 +114,7 @@ Model<dim>::discretise(const double step_size)
 
 template <int dim>
 void
-Model<dim>::accept(const Vector &u, const double time)
+Model<dim>::accept(const Vector &u, const double time, Rates rates)
 {
   ContactPoints<dim> &contact = problem().contact();
   if (time > current.time)
@@ -122,9 +122,7 @@ Model<dim>::accept(const Vector &u, const double time)
       current.predictor.step_size = time - current.time;
       if (!is_moving())
         {
-          current.predictor.rate = u;
-          current.predictor.rate -= current.displacement;
-          current.predictor.rate *= 1. / (time - current.time);
+          current.predictor.rates = std::move(rates);
           for (unsigned int i = 0; i < current.was_closed.size(); ++i)
             if (contact.responses()[i].pressure != 0.)
               current.was_closed[i] = true;

@@ -131,6 +131,7 @@ Equilibrium<dim>::balance(const Vector &u) const
   body_forces = 0.;
   bulk.add_body_forces(body_forces, time);
   body_forces.compress(dealii::VectorOperation::add);
+  body_forces += inertia_forces;
   reactions(held);
 
   auto sums = node_sums(space, bodies, u, contact_forces, body_forces);

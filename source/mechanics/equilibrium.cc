@@ -32,8 +32,8 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
 {
   set_up_matrices();
   const MPI_Comm communicator = space.grid.communicator();
-  for (Vector *vector :
-       {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces, &artificial_mass})
+  for (Vector *vector : {&loads, &dead_loads, &internal_forces, &contact_forces, &applied_forces,
+                         &inertia_forces, &artificial_mass})
     vector->reinit(space.owned(), communicator);
   ghosted.reinit(space.owned(), ghosted_dofs, communicator);
   set_up_artificial_mass();
@@ -102,6 +102,21 @@ Equilibrium<dim>::set_time(const double new_time, Vector &u)
   loads.compress(dealii::VectorOperation::add);
   loads += dead_loads;
   set_prescribed(u);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_inertia(Inertia of_step)
+{
+  inertia        = std::move(of_step);
+  inertia_forces = 0.;
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::has_inertia() const
+{
+  return inertia.factor != 0.;
 }
 
 template <int dim>
@@ -182,6 +197,12 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   r -= internal_forces;
   r += contact_forces;
   r += applied_forces;
+  if (has_inertia())
+    {
+      inertia.mass->vmult(inertia_forces, u);
+      inertia_forces.sadd(-inertia.factor, 1., inertia.forces);
+      r += inertia_forces;
+    }
   if (drag != 0.)
     {
       scratch = u;
@@ -198,10 +219,19 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
 }
 
 template <int dim>
+void
+Equilibrium<dim>::start_tangent()
+{
+  newton_matrix.copy_from(stiffness);
+  if (has_inertia())
+    newton_matrix.add(inertia.factor, *inertia.mass);
+}
+
+template <int dim>
 const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
-  newton_matrix.copy_from(stiffness);
+  start_tangent();
   bulk.add_tangent(seen_by_bulk, newton_matrix);
   boundary_terms.add_tangent(seen_by_bulk, time, newton_matrix);
   contact.add_to_matrix(newton_matrix);
@@ -216,7 +246,7 @@ template <int dim>
 Condensation
 Equilibrium<dim>::condensation(const bool only_closed)
 {
-  newton_matrix.copy_from(stiffness);
+  start_tangent();
   contact.jump_operator().add_stiffness(contact.choose_glued(only_closed), newton_matrix);
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
@@ -283,6 +313,7 @@ Equilibrium<dim>::reactions(Vector &result) const
   result -= contact_forces;
   result -= loads;
   result -= applied_forces;
+  result -= inertia_forces;
 }
 
 template <int dim>
@@ -291,8 +322,9 @@ Equilibrium<dim>::force_scale() const
 {
   Vector all(internal_forces);
   reactions(all);
-  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr();
-  double held    = 0.;
+  double squares = dead_loads.norm_sqr() + contact_forces.norm_sqr() + applied_forces.norm_sqr()
+                   + inertia_forces.norm_sqr();
+  double held = 0.;
   for (const auto &unknown : supports.unknowns())
     held += all(unknown.index) * all(unknown.index);
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)

@@ -66,8 +66,8 @@ Equilibrium<dim>::shorten(Vector &du, const double length) const
           largest = std::max(largest, std::abs(du(unknown)));
     return dealii::Utilities::MPI::max(largest, space.grid.communicator());
   };
-  // What is not held is sought only if it matters.
-  if (largest_among([](const unsigned int) { return true; }) <= length)
+  // What is not held is sought only if it matters; inertia holds everything.
+  if (has_inertia() || largest_among([](const unsigned int) { return true; }) <= length)
     return;
   const std::vector<unsigned int> loose   = free.not_held(); // ascending
   const double                    largest = largest_among(
@@ -146,7 +146,7 @@ std::optional<double>
 Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &history,
                                         const bool is_settling) const
 {
-  if (free_bodies().empty())
+  if (free_bodies().empty() || has_inertia())
     return {};
   const auto forces = loads_on_free_bodies();
   // A body sums the round-off of its nodes.

@@ -8,7 +8,8 @@ namespace scree
 {
 template <int dim>
 typename Equilibrium<dim>::Vector
-first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const double time,
+first_guess(const DiscreteProblem<dim> &problem, const TimeScheme<dim> &scheme,
+            const State<dim> &state, const double time,
             const std::function<void(const typename Equilibrium<dim>::Vector &b,
                                      typename Equilibrium<dim>::Vector       &x)> &solve)
 {
@@ -17,9 +18,9 @@ first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const 
   Vector            unchanged   = state.displacement;
   equilibrium.set_time(time, unchanged);
   std::vector<Vector> guesses = {unchanged};
-  if (!state.predictor.is_empty())
+  if (auto predicted = scheme.predicted(*problem.kinematics, state, time))
     {
-      guesses.push_back(problem.kinematics->extrapolated(state, time));
+      guesses.push_back(std::move(*predicted));
       equilibrium.set_prescribed(guesses.back());
     }
   if (std::any_of(state.bodies.begin(), state.bodies.end(),
@@ -48,9 +49,9 @@ first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const 
   return guesses[best];
 }
 
-#define SCREE_INSTANTIATE(dim)                                      \
-  template Equilibrium<dim>::Vector first_guess(                    \
-    const DiscreteProblem<dim> &, const State<dim> &, const double, \
+#define SCREE_INSTANTIATE(dim)                                                               \
+  template Equilibrium<dim>::Vector first_guess(                                             \
+    const DiscreteProblem<dim> &, const TimeScheme<dim> &, const State<dim> &, const double, \
     const std::function<void(const Equilibrium<dim>::Vector &, Equilibrium<dim>::Vector &)> &);
 
 SCREE_INSTANTIATE(2)

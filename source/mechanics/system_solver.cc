@@ -26,7 +26,8 @@ LinearSolveResult
 SystemSolver<dim>::solve(const Vector &r, const double tolerance, const bool may_condense,
                          Vector &du)
 {
-  if (may_condense && condenses)
+  // A condensed system holds for one factor of the mass.
+  if (may_condense && condenses && !equilibrium.has_inertia())
     try
       {
         return solve_condensed(r, du);

@@ -122,7 +122,7 @@ typename TotalKinematics<dim>::Vector
 TotalKinematics<dim>::extrapolated(const State<dim> &state, const double time) const
 {
   Vector result = state.displacement;
-  result.add(time - state.time, state.predictor.rate);
+  result.add(time - state.time, state.predictor.rates.velocity);
   return result;
 }
 

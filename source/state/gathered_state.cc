@@ -125,6 +125,17 @@ gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredStat
     result.bodies.push_back(saved_geometry(body));
 }
 
+/** The vectors of a state of a fixed geometry, with an acceleration or without. */
+template <typename S>
+auto
+vectors_of(S &state, const bool has_acceleration)
+{
+  std::vector result = {&state.displacement, &state.predictor.rates.velocity};
+  if (has_acceleration)
+    result.push_back(&state.predictor.rates.acceleration);
+  return result;
+}
+
 template <int dim>
 void
 gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
@@ -133,11 +144,12 @@ gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
   const MPI_Comm communicator = space.grid.communicator();
   const double   length       = resolution * space.grid.finest_size();
   const auto     origin       = space.grid.box().get_boundary_points().first;
-  result.nodes                = PlacedValues<dim>(2 * dim, origin, length);
+  const auto     vectors      = vectors_of(state, state.predictor.rates.acceleration.size() > 0);
+  result.nodes                = PlacedValues<dim>(vectors.size() * dim, origin, length);
   for_each_node(space,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
                   std::vector<double> row;
-                  for (const auto *vector : {&state.displacement, &state.predictor.rate})
+                  for (const auto *vector : vectors)
                     for (unsigned int d = 0; d < dim; ++d)
                       row.push_back((*vector)(first + d));
                   result.nodes.add(body, x, row);
@@ -155,10 +167,10 @@ gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
     }
   result.contact.gather(communicator);
 
-  result.trailing.resize(2 * space.n_trailing());
+  result.trailing.resize(vectors.size() * space.n_trailing());
   for_each_trailing(space, [&](const unsigned int i, const DofIndex unknown) {
-    result.trailing[2 * i]     = state.displacement(unknown);
-    result.trailing[2 * i + 1] = state.predictor.rate(unknown);
+    for (unsigned int v = 0; v < vectors.size(); ++v)
+      result.trailing[vectors.size() * i + v] = (*vectors[v])(unknown);
   });
   dealii::Utilities::MPI::sum(result.trailing, communicator, result.trailing);
 }
@@ -184,22 +196,26 @@ void
 restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &space,
               const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
 {
-  require_consistent(saved.trailing.size() == 2 * space.n_trailing(), directory);
-  auto &u = state.displacement, &rate = state.predictor.rate;
-  rate = u;
+  const unsigned int n_vectors = saved.nodes.row_size() / dim;
+  require_consistent((n_vectors == 2 || n_vectors == 3)
+                       && saved.trailing.size() == n_vectors * space.n_trailing(),
+                     directory);
+  const auto vectors = vectors_of(state, n_vectors == 3);
+  for (auto *vector : vectors)
+    *vector = state.displacement;
   for_each_node(space,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
                   const double *row = row_of(saved.nodes, body, x, directory);
-                  for (auto *vector : {&u, &rate})
+                  for (auto *vector : vectors)
                     for (unsigned int d = 0; d < dim; ++d)
                       (*vector)(first + d) = *row++;
                 });
   for_each_trailing(space, [&](const unsigned int i, const DofIndex unknown) {
-    u(unknown)    = saved.trailing[2 * i];
-    rate(unknown) = saved.trailing[2 * i + 1];
+    for (unsigned int v = 0; v < n_vectors; ++v)
+      (*vectors[v])(unknown) = saved.trailing[n_vectors * i + v];
   });
-  u.compress(dealii::VectorOperation::insert);
-  rate.compress(dealii::VectorOperation::insert);
+  for (auto *vector : vectors)
+    vector->compress(dealii::VectorOperation::insert);
   state.predictor.step_size = saved.last_step_size;
 
   for (unsigned int i = 0; i < contact.points().size(); ++i)

@@ -3,6 +3,7 @@
 #include <scree/application/contact_closing.h>
 #include <scree/application/stepper.h>
 #include <scree/contact/status_changes.h>
+#include <scree/mechanics/time_scheme.h>
 #include <scree/solver/newton.h>
 
 #include <string>
@@ -33,8 +34,8 @@ public:
   void          resume(const StepperRecord &record) override;
 
   /**
-   * Newton's method from u, at the loads and conditions that were set; of no step: nothing is said
-   * if contact carries nothing in the end.
+   * Newton's method from u, at the loads and conditions that were set, without inertia; of no step:
+   * nothing is said if contact carries nothing in the end.
    */
   NewtonResult solve(Vector &u);
 
@@ -54,16 +55,17 @@ private:
   void              observe(const NewtonIteration &iteration);
   LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
 
-  const Parameters<dim> &parameters;
-  const StepControl     &step_control;
-  Model<dim>            &model;
-  RunLog                &run_log;
-  ContactClosing<dim>    closing;
-  StepRecord             record;                    //!< that is being solved
-  bool                   is_second_attempt = false; //!< of all steps until it changes
-  bool                   has_turned        = false; //!< this step, to the other kind of attempt
-  bool                   has_slid = false; //!< bodies may have: contact was closed with friction
-  bool                   is_transient = false; //!< K has more artificial mass
+  const Parameters<dim>                       &parameters;
+  const StepControl                           &step_control;
+  Model<dim>                                  &model;
+  RunLog                                      &run_log;
+  const std::unique_ptr<const TimeScheme<dim>> scheme;
+  ContactClosing<dim>                          closing;
+  StepRecord                                   record; //!< that is being solved
+  bool   is_second_attempt = false;                    //!< of all steps until it changes
+  bool   has_turned        = false;                    //!< this step, to the other kind of attempt
+  bool   has_slid          = false;       //!< bodies may have: contact was closed with friction
+  bool   is_transient      = false;       //!< K has more artificial mass
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
   StatusChanges status_changes;
 };

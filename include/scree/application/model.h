@@ -57,8 +57,10 @@ public:
   /**
    * Takes u at `time`, which the equilibrium accepted, as the state. On a moving geometry
    * move_geometry() follows.
+   *
+   * @param rates there; none unless time goes on
    */
-  void accept(const Vector &u, const double time);
+  void accept(const Vector &u, const double time, Rates rates = {});
 
   /**
    * Moves the bodies by the accepted displacement: level sets, poses, material points; makes the

@@ -5,6 +5,7 @@
 #include <scree/mechanics/condensation.h>
 #include <scree/mechanics/energy_ledger.h>
 #include <scree/mechanics/free_bodies.h>
+#include <scree/mechanics/inertia.h>
 
 #include <optional>
 #include <string>
@@ -13,10 +14,11 @@
 namespace scree
 {
 /**
- * The discrete equilibrium r(u) = f(t) - A u - R(u) - R_contact(u) = 0 of all bodies and its
- * tangent K = A + dR/du + dR_contact/du. A is linear and assembled once; prescribed unknowns are
- * kept in u and eliminated from K, so that the terms also give their reactions (theory.md sections
- * 3, 7, 8). Rigid bodies have rows without A, their loads f depend on the pose.
+ * The discrete equilibrium r(u) = f(t) - A u - R(u) - R_contact(u) - (c M u - h) = 0 of all bodies
+ * and its tangent K = A + dR/du + dR_contact/du + c M, the inertia c M u - h as a TimeScheme says.
+ * A is linear and assembled once; prescribed unknowns are kept in u and eliminated from K, so that
+ * the terms also give their reactions (theory.md sections 3, 7, 8). Rigid bodies have rows without
+ * A, their loads f depend on the pose.
  *
  * What u of deformable bodies means, and what of bulk and boundary conditions is in A or R, is up
  * to the Kinematics; of rigid bodies u is the whole motion.
@@ -70,6 +72,9 @@ public:
 
   /** accept(); what that adds to the error of the balance of energies is transfer. */
   void accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history);
+
+  void set_inertia(Inertia of_step); //!< none by default
+  bool has_inertia() const;
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
@@ -197,6 +202,7 @@ private:
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void hold_moments(Vector &r);
   void set_zero_on_prescribed(Vector &r) const;
+  void start_tangent(); //!< K = A + c M
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
   void reactions(Vector &result) const;
@@ -223,6 +229,8 @@ private:
   Vector              internal_forces; //!< A u of the last residual()
   Vector              contact_forces;  //!< -R_contact of the last residual()
   Vector              applied_forces;  //!< on rigid bodies at the last residual()
+  Inertia             inertia;         //!< of the step
+  Vector              inertia_forces;  //!< h - c M u of the last residual()
   Vector              artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector              ghosted;         //!< u of the last residual() with ghosts
   PointEvaluator<dim> seen_by_bulk;    //!< what the bulk sees of it

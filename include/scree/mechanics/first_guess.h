@@ -1,13 +1,14 @@
 #pragma once
 
 #include <scree/mechanics/discrete_problem.h>
+#include <scree/mechanics/time_scheme.h>
 
 #include <functional>
 
 namespace scree
 {
 /**
- * First guess of the step to `time`: of the old displacement, Kinematics::extrapolated() and, with
+ * First guess of the step to `time`: of the old displacement, TimeScheme::predicted() and, with
  * rigid bodies, the linear_prediction(), that with the smallest residual. Sets the time of the
  * equilibrium.
  *
@@ -15,7 +16,8 @@ namespace scree
  */
 template <int dim>
 typename Equilibrium<dim>::Vector
-first_guess(const DiscreteProblem<dim> &problem, const State<dim> &state, const double time,
+first_guess(const DiscreteProblem<dim> &problem, const TimeScheme<dim> &scheme,
+            const State<dim> &state, const double time,
             const std::function<void(const typename Equilibrium<dim>::Vector &b,
                                      typename Equilibrium<dim>::Vector       &x)> &solve);
 } // namespace scree

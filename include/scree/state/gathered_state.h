@@ -38,9 +38,9 @@ struct GatheredState
   double   last_step_size = 0.; //!< Predictor::step_size
 
   // On a fixed geometry.
-  PlacedValues<dim>   nodes;    //!< by body: displacement and Predictor::rate
+  PlacedValues<dim>   nodes;    //!< by body: displacement and Predictor::rates
   PlacedValues<dim>   contact;  //!< by pair: tau, jump, pressure, State::was_closed
-  std::vector<double> trailing; //!< unknowns without a node: displacement and rate
+  std::vector<double> trailing; //!< the same of unknowns without a node
 
   // On a moving geometry.
   std::vector<std::vector<double>>               points; //!< of each process: pack()

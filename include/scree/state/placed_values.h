@@ -45,6 +45,12 @@ public:
     return places.size();
   }
 
+  /** Numbers per place. */
+  unsigned int row_size() const
+  {
+    return n_values;
+  }
+
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {

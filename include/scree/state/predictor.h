@@ -8,13 +8,19 @@
 
 namespace scree
 {
-/** The increment of the last step, from which the next one begins. */
+/** Velocity and acceleration of the owned unknowns at the end of a step. */
+struct Rates
+{
+  dealii::TrilinosWrappers::MPI::Vector velocity;     //!< [L/time]
+  dealii::TrilinosWrappers::MPI::Vector acceleration; //!< [L/time^2]; of size 0: there is none
+};
+
+/** The motion at the end of the last step, from which the next one begins. */
 template <int dim>
 struct Predictor
 {
   double step_size = 0.; //!< of the last step [time]; 0: there is none
-  /** On a fixed geometry: the increment over step_size, at the owned unknowns. */
-  dealii::TrilinosWrappers::MPI::Vector rate;
+  Rates  rates;          //!< on a fixed geometry
   /** On a moving geometry: of the deformable bodies, else empty. */
   std::vector<ExtendedIncrement<dim>>            of_bodies;
   std::vector<typename RigidPose<dim>::Unknowns> of_rigid; //!< the same of the rigid ones

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <scree/mechanics/time_scheme.h>
+
+namespace scree
+{
+/** No inertia: time is what orders the loads, the velocity v = (u - u_n)/dt predicts the next step.
+ */
+template <int dim>
+class QuasiStatic : public TimeScheme<dim>
+{
+public:
+  using typename TimeScheme<dim>::Vector;
+
+  std::optional<Vector> predicted(const Kinematics<dim> &kinematics, const State<dim> &state,
+                                  const double time) const override;
+  Inertia               inertia(const Kinematics<dim> &kinematics, const State<dim> &state,
+                                const double time) const override;
+  /** Without an acceleration. */
+  Rates rates(const State<dim> &state, const Vector &u, const double time) const override;
+};
+} // namespace scree

@@ -1,0 +1,34 @@
+#include <scree/mechanics/quasi_static.h>
+
+namespace scree
+{
+template <int dim>
+std::optional<typename QuasiStatic<dim>::Vector>
+QuasiStatic<dim>::predicted(const Kinematics<dim> &kinematics, const State<dim> &state,
+                            const double time) const
+{
+  if (state.predictor.is_empty())
+    return {};
+  return kinematics.extrapolated(state, time);
+}
+
+template <int dim>
+Inertia
+QuasiStatic<dim>::inertia(const Kinematics<dim> &, const State<dim> &, const double) const
+{
+  return {};
+}
+
+template <int dim>
+Rates
+QuasiStatic<dim>::rates(const State<dim> &state, const Vector &u, const double time) const
+{
+  Vector velocity = u;
+  velocity -= state.displacement;
+  velocity *= 1. / (time - state.time);
+  return {velocity, {}};
+}
+
+template class QuasiStatic<2>;
+template class QuasiStatic<3>;
+} // namespace scree
