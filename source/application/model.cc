@@ -106,8 +106,9 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{parameters.discretization, parameters.contact.shift, parameters.contact.enforcement,
-                                     parameters.moving, parameters.linear_solver};
+  const ProblemParameters of_problem{parameters.discretization, parameters.contact.shift,
+                                     parameters.contact.enforcement, parameters.moving,
+                                     parameters.linear_solver};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }

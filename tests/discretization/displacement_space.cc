@@ -1,4 +1,4 @@
-// Fields: colours of bodies, numbering of unknowns, evaluation at points anywhere.
+// Displacement spaces: colours of bodies, numbering of unknowns, evaluation at points anywhere.
 #include <gtest/gtest.h>
 
 #include <scree/discretization/displacement_space.h>
@@ -24,7 +24,7 @@ two_discs(const double distance, const unsigned int degree = 1, const std::strin
                         {"right", ball_text(number(0.35 + 0.5 * distance) + ", 0", 0.35)}});
 }
 
-TEST(Fields, ColoursOfBodies)
+TEST(DisplacementSpace, ColoursOfBodies)
 {
   const CutBodies<2> touching(two_discs(0.)), apart(two_discs(0.5));
   EXPECT_EQ(touching.space->n_fields(), 2u);
@@ -40,7 +40,7 @@ TEST(Fields, ColoursOfBodies)
       }
 }
 
-TEST(Fields, ChainOfBodiesNeedsTwoFields)
+TEST(DisplacementSpace, ChainOfBodiesNeedsTwoFields)
 {
   std::vector<std::pair<std::string, std::string>> bodies;
   for (unsigned int i = 0; i < 5; ++i)
@@ -112,7 +112,7 @@ discs_with_multipliers(const unsigned int degree)
                         {"right", ball_text("0.35, 0", 0.35)}});
 }
 
-TEST(Fields, NumberingIsContiguous)
+TEST(DisplacementSpace, NumberingIsContiguous)
 {
   check_numbering(CutBodies<2>(two_discs(0.)), 0);
   check_numbering(CutBodies<2>(two_discs(0., 2)), 0);
@@ -186,7 +186,7 @@ balls_3d()
            {{"left", ball_text("-0.4, 0, 0", 0.4)}, {"right", ball_text("0.4, 0.01, 0", 0.4)}});
 }
 
-TEST(Fields, StencilsReproduceLinearFields)
+TEST(DisplacementSpace, StencilsReproduceLinearFields)
 {
   check_stencils(CutBodies<2>(two_discs(0.)));
   check_stencils(CutBodies<2>(two_discs(0., 1, graded_text(1))));
@@ -201,7 +201,7 @@ TEST(FieldsMPI, StencilsReproduceLinearFields)
   check_stencils(CutBodies<3>(balls_3d()));
 }
 
-TEST(Fields, PointsBesideABodyTakeTheNearestCell)
+TEST(DisplacementSpace, PointsBesideABodyTakeTheNearestCell)
 {
   const CutBodies<2> model(two_discs(0.5));
   const double       h = model.grid.finest_size();
@@ -211,7 +211,7 @@ TEST(Fields, PointsBesideABodyTakeTheNearestCell)
   EXPECT_TRUE(model.space->stencils({0}, {Point<2>(0.6, 0.)})[0].empty());
 }
 
-TEST(Fields, HangingNodesAreConstrained)
+TEST(DisplacementSpace, HangingNodesAreConstrained)
 {
   const CutBodies<2> model(two_discs(0., 2, graded_text(1)));
   EXPECT_TRUE(model.grid.triangulation().has_hanging_nodes());
