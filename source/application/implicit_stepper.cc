@@ -245,7 +245,8 @@ ImplicitStepper<dim>::solve_enforced(const Newton &newton, Vector &u)
         {
           result.status  = NewtonStatus::max_iterations;
           result.message = "contact is not enforced after " + std::to_string(n)
-                           + " updates of the multipliers, see Contact/Augmented Lagrangian";
+                           + " updates of the multipliers; raise Contact/Augmented "
+                             "Lagrangian/Maximum updates or Largest gap, or refine the contact";
           break;
         }
       const unsigned int n_before = result.iterations;

@@ -11,7 +11,8 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const std::vector<ContactStiffness
                                               const EnforcementParameters          &parameters,
                                               const MPI_Comm                        communicator)
     : parameters(parameters)
-    , lambda(points, communicator)
+    , normal(points, communicator)
+    , tangential(normal)
     , penalties(penalties)
 {
   for (const ContactPoint<dim> &point : points)
@@ -23,19 +24,22 @@ void
 AugmentedLagrangian<dim>::start_step(const ContactHistory<dim> &history)
 {
   std::vector<dealii::Tensor<1, dim>> tractions;
-  closed.clear();
   for (unsigned int p = 0; p < points.size(); ++p)
     {
-      Point       &point = points[p];
-      const double gap   = point.initial_gap + point.normal * history.jump[p];
+      Point       &point   = points[p];
+      const double gap     = point.initial_gap + point.normal * history.jump[p];
+      point.has_multiplier = history.pressure[p] != 0.;
       point.is_closed_at_start
-        = history.pressure[p] != 0. || gap <= parameters.largest_gap * point.cell_size;
-      tractions.push_back(history.pressure[p] * points[p].normal + history.tau[p]);
-      closed.push_back(history.pressure[p] != 0.);
+        = point.has_multiplier || gap <= parameters.largest_gap * point.cell_size;
+      point.has_opened = false;
+      tractions.push_back(history.pressure[p] * point.normal + history.tau[p]);
     }
-  lambda.clear();
-  lambda.add_fit(tractions, closed);
-  closed.assign(points.size(), false);
+  const auto of_traction = parts(tractions);
+  const auto with        = masks();
+  normal.clear();
+  normal.add_fit(of_traction[0], with[0]);
+  tangential.clear();
+  tangential.add_fit(of_traction[1], with[1]);
   last_mean = std::numeric_limits<double>::infinity();
   stiffen(1. / growth);
 }
@@ -44,9 +48,54 @@ template <int dim>
 dealii::Tensor<1, dim>
 AugmentedLagrangian<dim>::multiplier(const unsigned int point) const
 {
-  const dealii::Tensor<1, dim> all = lambda(point);
-  const auto                  &n   = points[point].normal;
-  return points[point].is_closed_at_start ? all : (all * n) * n;
+  const auto            &n      = points[point].normal;
+  dealii::Tensor<1, dim> result = (normal(point) * n) * n;
+  if (points[point].is_closed_at_start)
+    {
+      const dealii::Tensor<1, dim> lambda_t = tangential(point);
+      result += lambda_t - (lambda_t * n) * n;
+    }
+  return result;
+}
+
+template <int dim>
+void
+AugmentedLagrangian<dim>::choose_points(const std::vector<ContactResponse<dim>> &responses)
+{
+  for (unsigned int p = 0; p < points.size(); ++p)
+    if (responses[p].pressure != 0.)
+      points[p].has_multiplier = true;
+    else if (points[p].has_multiplier && !points[p].has_opened)
+      {
+        points[p].has_multiplier = false;
+        points[p].has_opened     = true;
+      }
+}
+
+template <int dim>
+std::array<std::vector<bool>, 2>
+AugmentedLagrangian<dim>::masks() const
+{
+  std::array<std::vector<bool>, 2> result;
+  for (const Point &point : points)
+    {
+      result[0].push_back(point.has_multiplier);
+      result[1].push_back(point.has_multiplier && point.is_closed_at_start);
+    }
+  return result;
+}
+
+template <int dim>
+std::array<std::vector<dealii::Tensor<1, dim>>, 2>
+AugmentedLagrangian<dim>::parts(const std::vector<dealii::Tensor<1, dim>> &vectors) const
+{
+  std::array<std::vector<dealii::Tensor<1, dim>>, 2> result;
+  for (unsigned int p = 0; p < points.size(); ++p)
+    {
+      result[0].push_back((vectors[p] * points[p].normal) * points[p].normal);
+      result[1].push_back(vectors[p] - result[0].back());
+    }
+  return result;
 }
 
 template <int dim>
@@ -89,24 +138,24 @@ template <int dim>
 bool
 AugmentedLagrangian<dim>::update(const std::vector<ContactResponse<dim>> &responses)
 {
-  std::vector<dealii::Tensor<1, dim>> changes, motions; // motions: gaps and slides, in cells
+  choose_points(responses);
+  std::vector<dealii::Tensor<1, dim>> changes;
+  for (unsigned int p = 0; p < points.size(); ++p)
+    changes.push_back(responses[p].traction(points[p].normal) - multiplier(p));
+  const auto of_changes = parts(changes);
+  auto       motions    = of_changes; // gaps and slides, in cells
   for (unsigned int p = 0; p < points.size(); ++p)
     {
-      const dealii::Tensor<1, dim> &n           = points[p].normal;
-      dealii::Tensor<1, dim>        change      = responses[p].traction(n) - multiplier(p);
-      const dealii::Tensor<1, dim>  normal_part = (change * n) * n;
-      if (!points[p].is_closed_at_start)
-        change = normal_part;
-      changes.push_back(change);
-      motions.push_back(
-        (normal_part / penalties[p].normal + (change - normal_part) / penalties[p].tangential)
-        / points[p].cell_size);
-      closed[p] = closed[p] || responses[p].pressure != 0.;
+      motions[0][p] /= penalties[p].normal * points[p].cell_size;
+      motions[1][p] /= penalties[p].tangential * points[p].cell_size;
     }
-  const double mean = lambda.largest_mean(motions, closed);
+  const auto   with = masks();
+  const double mean = std::max(normal.largest_mean(motions[0], with[0]),
+                               tangential.largest_mean(motions[1], with[1]));
   if (mean <= parameters.largest_gap)
     return true;
-  lambda.add_fit(changes, closed);
+  normal.add_fit(of_changes[0], with[0]);
+  tangential.add_fit(of_changes[1], with[1]);
   if (mean > 0.25 * last_mean)
     stiffen(std::min(parameters.growth, parameters.largest_growth / growth));
   last_mean = mean;

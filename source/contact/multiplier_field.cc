@@ -151,16 +151,17 @@ template <int dim>
 void
 MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vector<bool> &closed)
 {
-  const unsigned int n_iterations = 6;
-  const auto         diagonal     = squares(closed);
-  const auto         at_points    = [&](const std::vector<Value> &of_nodes) {
+  constexpr unsigned int n_iterations = 6;
+  constexpr double       round_off    = 1e-16; // squared
+  const auto             diagonal     = squares(closed);
+  const auto             at_points    = [&](const std::vector<Value> &of_nodes) {
     std::vector<Value> result;
     for (const Support &support : supports)
       result.push_back(at(of_nodes, support));
     return result;
   };
   std::vector<Value> fit(nodal.size()), direction(nodal.size()), r = moments(values, closed);
-  double             r_z = 0.;
+  double             r_z = 0., first_r_z = 0.;
   for (unsigned int n = 0; n < n_iterations; ++n)
     {
       const double       last_r_z = r_z;
@@ -172,7 +173,9 @@ MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vecto
             z[i] = r[i] / diagonal[i];
             r_z += r[i] * z[i];
           }
-      if (r_z == 0.)
+      if (n == 0)
+        first_r_z = r_z;
+      if (r_z <= round_off * first_r_z)
         break;
       for (unsigned int i = 0; i < r.size(); ++i)
         direction[i] = n == 0 ? z[i] : z[i] + (r_z / last_r_z) * direction[i];

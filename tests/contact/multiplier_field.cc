@@ -54,8 +54,8 @@ largest_error(const unsigned int n, const Pressure &p)
       values[i] -= field(i);
       error = std::max(error, values[i].norm());
     }
-  // What is left has no mean near any node.
-  EXPECT_LT(field.largest_mean(values, closed), 0.1 * error + 1e-12);
+  // What is left has no mean near any node, but for what six iterations leave.
+  EXPECT_LT(field.largest_mean(values, closed), 1e-4);
   return Utilities::MPI::max(error, MPI_COMM_WORLD);
 }
 

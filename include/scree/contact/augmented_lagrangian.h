@@ -4,6 +4,8 @@
 #include <scree/contact/enforcement_parameters.h>
 #include <scree/contact/multiplier_field.h>
 
+#include <array>
+
 namespace scree
 {
 /**
@@ -14,12 +16,12 @@ namespace scree
  *     tau_t = lambda_t - eps_t f P ([[u]] - [[u]]_n).
  *
  * In each equilibrium lambda <- p n + tau (Uzawa), until the mean gap of closed points is zero near
- * each node, and so is the mean slide of those that stick. Points that were closed in one of these
- * equilibria count to the end of the step, else those at the edge of contact would open and close
- * in turns. Gaps in between are of higher order in
- * h. Points that close in a step have no lambda_t yet: what slid before they closed is not to be
- * undone. A step starts with the tractions at the end of the last one. If an update does not make
- * the means four times smaller, the penalties of the rest of the step grow. Nothing is stored.
+ * each node, and so is the mean slide of those that stick. A point that opens loses its multiplier,
+ * but only once in a step, else those at the edge of contact would open and close in turns. Gaps in
+ * between are of higher order in h. Points that close in a step have no lambda_t yet: what slid
+ * before they closed is not to be undone. A step starts with the tractions at the end of the last
+ * one. If an update does not make the means four times smaller, the penalties of the rest of the
+ * step grow. Nothing is stored.
  */
 template <int dim>
 class AugmentedLagrangian : public Enforcement<dim>
@@ -64,17 +66,25 @@ private:
     dealii::Tensor<1, dim> normal;
     double                 initial_gap, cell_size;    //!< [L]
     bool                   is_closed_at_start = true; //!< of the step: has a lambda_t
+    bool                   has_multiplier     = false;
+    bool                   has_opened         = false; //!< in this step, after it had one
   };
 
-  /** lambda at a point, without lambda_t if that has none. */
+  /** lambda at a point. */
   dealii::Tensor<1, dim> multiplier(const unsigned int point) const;
+  /** Decides which points have multipliers after an equilibrium. */
+  void choose_points(const std::vector<ContactResponse<dim>> &responses);
+  /** Whether points have multipliers; whether they have tangential ones. */
+  std::array<std::vector<bool>, 2> masks() const;
+  /** The normal and the tangential parts of vectors at the points. */
+  std::array<std::vector<dealii::Tensor<1, dim>>, 2>
+  parts(const std::vector<dealii::Tensor<1, dim>> &vectors) const;
 
   void stiffen(const double factor);
 
   const EnforcementParameters   parameters;
   std::vector<Point>            points;
-  std::vector<bool>             closed; //!< in an equilibrium of the step: have multipliers
-  MultiplierField<dim>          lambda;
+  MultiplierField<dim>          normal, tangential; //!< lambda_n n, lambda_t
   std::vector<ContactStiffness> penalties;
   double                        last_mean = 0.; //!< gap or slide, in cells
   double                        growth    = 1.; //!< of the penalties in this step
