@@ -10,10 +10,10 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const std::vector<ContactStiffness
                                               const std::vector<ContactPoint<dim>> &points,
                                               const EnforcementParameters          &parameters,
                                               const MPI_Comm                        communicator)
-    : parameters(parameters)
+    : Enforcement<dim>(penalties)
+    , parameters(parameters)
     , normal(points, communicator)
     , tangential(normal)
-    , penalties(penalties)
 {
   for (const ContactPoint<dim> &point : points)
     this->points.push_back({point.normal, point.initial_gap, point.cell_size});

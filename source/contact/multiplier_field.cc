@@ -82,9 +82,8 @@ MultiplierField<dim>::clear()
 }
 
 template <int dim>
-dealii::Tensor<1, dim>
-MultiplierField<dim>::at(const std::vector<dealii::Tensor<1, dim>> &of_nodes,
-                         const Support                             &support) const
+typename MultiplierField<dim>::Value
+MultiplierField<dim>::at(const std::vector<Value> &of_nodes, const Support &support) const
 {
   dealii::Tensor<1, dim> value;
   for (unsigned int v = 0; v < n_corners; ++v)
@@ -120,20 +119,7 @@ MultiplierField<dim>::moments(const std::vector<dealii::Tensor<1, dim>> &values,
 
 template <int dim>
 std::vector<double>
-MultiplierField<dim>::areas(const std::vector<bool> &closed) const
-{
-  std::vector<double> result(nodal.size());
-  for (unsigned int p = 0; p < supports.size(); ++p)
-    if (closed[p])
-      for (unsigned int v = 0; v < n_corners; ++v)
-        result[supports[p].nodes[v]] += weights[p] * supports[p].values[v];
-  dealii::Utilities::MPI::sum(result, communicator, result);
-  return result;
-}
-
-template <int dim>
-std::vector<double>
-MultiplierField<dim>::squares(const std::vector<bool> &closed) const
+MultiplierField<dim>::integrals(const unsigned int power, const std::vector<bool> &closed) const
 {
   std::vector<double> result(nodal.size());
   for (unsigned int p = 0; p < supports.size(); ++p)
@@ -141,7 +127,7 @@ MultiplierField<dim>::squares(const std::vector<bool> &closed) const
       for (unsigned int v = 0; v < n_corners; ++v)
         {
           const double N = supports[p].values[v];
-          result[supports[p].nodes[v]] += weights[p] * N * N;
+          result[supports[p].nodes[v]] += weights[p] * (power == 1 ? N : N * N);
         }
   dealii::Utilities::MPI::sum(result, communicator, result);
   return result;
@@ -153,7 +139,7 @@ MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vecto
 {
   constexpr unsigned int n_iterations = 6;
   constexpr double       round_off    = 1e-16; // squared
-  const auto             diagonal     = squares(closed);
+  const auto             diagonal     = integrals(2, closed);
   const auto             at_points    = [&](const std::vector<Value> &of_nodes) {
     std::vector<Value> result;
     for (const Support &support : supports)
@@ -201,7 +187,7 @@ double
 MultiplierField<dim>::largest_mean(const std::vector<dealii::Tensor<1, dim>> &values,
                                    const std::vector<bool>                   &closed) const
 {
-  const auto area   = areas(closed);
+  const auto area   = integrals(1, closed);
   const auto moment = moments(values, closed);
   double     result = 0.;
   for (unsigned int i = 0; i < area.size(); ++i)

@@ -9,7 +9,7 @@
 namespace scree
 {
 /**
- * Multipliers lambda = lambda_n n + lambda_t, a MultiplierField, and penalties eps_n, eps_t
+ * Multipliers lambda = lambda_n n + lambda_t, a MultiplierField each, and penalties eps_n, eps_t
  * (theory.md section 8; Simo & Laursen 1992; Chen et al. 2017, section 4.3):
  *
  *     p_t = lambda_n - eps_n g, of glued points lambda_n - eps_n n.([[u]] - [[u]]_n),
@@ -31,11 +31,6 @@ public:
   AugmentedLagrangian(const std::vector<ContactStiffness>  &penalties,
                       const std::vector<ContactPoint<dim>> &points,
                       const EnforcementParameters &parameters, const MPI_Comm communicator);
-
-  const std::vector<ContactStiffness> &stiffness() const override
-  {
-    return penalties;
-  }
 
   std::vector<TrialTraction<dim>>
   trial_tractions(const std::vector<unsigned int>       &numbers,
@@ -60,6 +55,8 @@ public:
   bool update(const std::vector<ContactResponse<dim>> &responses) override;
 
 private:
+  using Enforcement<dim>::penalties;
+
   /** What a point needs in an update. */
   struct Point
   {
@@ -82,11 +79,10 @@ private:
 
   void stiffen(const double factor);
 
-  const EnforcementParameters   parameters;
-  std::vector<Point>            points;
-  MultiplierField<dim>          normal, tangential; //!< lambda_n n, lambda_t
-  std::vector<ContactStiffness> penalties;
-  double                        last_mean = 0.; //!< gap or slide, in cells
-  double                        growth    = 1.; //!< of the penalties in this step
+  const EnforcementParameters parameters;
+  std::vector<Point>          points;
+  MultiplierField<dim>        normal, tangential; //!< lambda_n n, lambda_t
+  double                      last_mean = 0.;     //!< gap or slide, in cells
+  double                      growth    = 1.;     //!< of the penalties in this step
 };
 } // namespace scree

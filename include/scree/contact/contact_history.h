@@ -12,6 +12,6 @@ struct ContactHistory
 {
   std::vector<dealii::Tensor<1, dim>> tau;      //!< tangential traction on b
   std::vector<dealii::Tensor<1, dim>> jump;     //!< [[u]]
-  std::vector<double>                 pressure; //!< only tied points need it
+  std::vector<double>                 pressure; //!< of tied points, and of all with multipliers
 };
 } // namespace scree

@@ -23,10 +23,19 @@ template <int dim>
 class Enforcement
 {
 public:
+  /** @param penalties stiffness of the points */
+  explicit Enforcement(const std::vector<ContactStiffness> &penalties)
+      : penalties(penalties)
+  {
+  }
+
   virtual ~Enforcement() = default;
 
   /** Of closed points that stick. */
-  virtual const std::vector<ContactStiffness> &stiffness() const = 0;
+  const std::vector<ContactStiffness> &stiffness() const
+  {
+    return penalties;
+  }
 
   /** p_t and tau_t of the points of these numbers; `history` is that of all points. */
   virtual std::vector<TrialTraction<dim>>
@@ -54,5 +63,8 @@ public:
    * again
    */
   virtual bool update(const std::vector<ContactResponse<dim>> &responses) = 0;
+
+protected:
+  std::vector<ContactStiffness> penalties;
 };
 } // namespace scree

@@ -58,10 +58,8 @@ private:
   /** int N_i v over closed points, of all nodes and processes. */
   std::vector<Value> moments(const std::vector<Value> &values,
                              const std::vector<bool>  &closed) const;
-  /** int N_i over closed points. */
-  std::vector<double> areas(const std::vector<bool> &closed) const;
-  /** int N_i^2 over closed points. */
-  std::vector<double> squares(const std::vector<bool> &closed) const;
+  /** int N_i^power over closed points, of power 1 or 2. */
+  std::vector<double> integrals(const unsigned int power, const std::vector<bool> &closed) const;
 
   const MPI_Comm       communicator;
   std::vector<Support> supports; //!< of the points

@@ -16,15 +16,7 @@ template <int dim>
 class Penalty : public Enforcement<dim>
 {
 public:
-  explicit Penalty(const std::vector<ContactStiffness> &penalties)
-      : penalties(penalties)
-  {
-  }
-
-  const std::vector<ContactStiffness> &stiffness() const override
-  {
-    return penalties;
-  }
+  using Enforcement<dim>::Enforcement;
 
   std::vector<TrialTraction<dim>>
   trial_tractions(const std::vector<unsigned int>       &numbers,
@@ -48,6 +40,6 @@ public:
   }
 
 private:
-  std::vector<ContactStiffness> penalties;
+  using Enforcement<dim>::penalties;
 };
 } // namespace scree
