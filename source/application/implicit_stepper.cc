@@ -4,6 +4,7 @@
 #include <scree/mechanics/existence.h>
 #include <scree/mechanics/first_guess.h>
 #include <scree/mechanics/material_update.h>
+#include <scree/mechanics/motion_rates.h>
 #include <scree/mechanics/step_criteria.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,7 +23,6 @@ ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
     , step_control(step_control)
     , model(model)
     , run_log(run_log)
-    , scheme(make_time_scheme<dim>())
     , closing(step_control, model, *this, run_log)
 {
 }
@@ -32,9 +32,28 @@ void
 ImplicitStepper<dim>::begin()
 {
   has_slid = step_control.n_accepted() > 0;
+  if (model.problem().mass)
+    {
+      warn_of_overlap();
+      return;
+    }
   closing.resolve_overlap();
   if (step_control.n_accepted() == 0)
     closing.settle();
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::warn_of_overlap() const
+{
+  constexpr double negligible = 1e-3; // cells
+  const auto       overlaps   = model.problem().contact().overlaps(model.problem().communicator());
+  const double     largest
+    = overlaps.empty() ? 0. : *std::max_element(overlaps.begin(), overlaps.end());
+  if (!model.state().has_started && largest > negligible * model.problem().grid.finest_size())
+    run_log.log.line("Warning: bodies overlap by up to " + short_number(largest)
+                     + " at the start: contact pushes them apart, which gives them energy; move "
+                       "them apart, or set Adjust of their contact law");
 }
 
 template <int dim>
@@ -86,8 +105,9 @@ ImplicitStepper<dim>::attempt()
   record.step = step_control.n_accepted() + 1;
   record.time = time;
   problem.equilibrium().set_second_attempt(is_second_attempt);
-  problem.equilibrium().set_inertia(scheme->inertia(*problem.kinematics, model.state(), time));
-  auto u = first_guess<dim>(problem, *scheme, model.state(), time, [&](const Vector &b, Vector &x) {
+  const TimeScheme<dim> &scheme = model.time_scheme();
+  problem.equilibrium().set_inertia(scheme.inertia(problem.mass, model.state(), time));
+  auto u = first_guess<dim>(problem, scheme, model.state(), time, [&](const Vector &b, Vector &x) {
     solve_linear_system(b, parameters.linear_solver.tolerance, x);
   });
   const NewtonResult result = solve_step(u);
@@ -118,6 +138,9 @@ ImplicitStepper<dim>::attempt()
     }
   else
     require_small_rotations(problem, balances, model.state(), time);
+  const Rates rates = rates_at_end(problem, scheme, model.state(), u, time);
+  if (problem.mass)
+    take_motion(u, rates, attempt);
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.shift(), problem.communicator());
   if (!model.is_moving())
@@ -125,11 +148,42 @@ ImplicitStepper<dim>::attempt()
       report.meetings(problem, parameters.contact, u);
       warn_of_rotations(problem, balances, u, time, run_log);
     }
-  model.accept(u, time, scheme->rates(model.state(), u, time));
+  model.accept(u, time, rates);
   attempt.outcome = Attempt<dim>::Outcome::accepted;
   has_turned      = false;
   has_slid        = true;
   return attempt;
+}
+
+template <int dim>
+void
+ImplicitStepper<dim>::take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const
+{
+  const Mass<dim> &mass = *model.problem().mass;
+  model.problem().equilibrium().set_kinetic_energy(mass.kinetic_energy(u, rates));
+  auto                                velocities = mass.at_points(rates.velocity);
+  std::vector<dealii::Tensor<1, dim>> motion(velocities.size());
+  if (model.is_moving())
+    {
+      const State<dim> &state  = model.state();
+      const auto        before = mass.at_points(state.predictor.rates.velocity);
+      const double      share  = parameters.time_scheme.flip_share;
+      for (std::size_t p = 0; p < velocities.size(); ++p)
+        {
+          velocities[p] += share * (state.points.velocity[p] - before[p]);
+          motion[p] = attempt.points.position[p] - state.points.position[p];
+        }
+      attempt.points.velocity     = velocities;
+      attempt.points.acceleration = mass.at_points(rates.acceleration);
+      attempt.points.forcing      = mass.at_points(mass.solve(rates.forces));
+    }
+  for (const auto &momentum : mass.momenta(u, rates, motion, velocities))
+    {
+      auto &columns = attempt.record.momenta;
+      columns.insert(columns.end(), momentum.linear.begin_raw(), momentum.linear.end_raw());
+      for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+        columns.push_back(momentum.angular[d]);
+    }
 }
 
 template <int dim>

@@ -3,6 +3,7 @@
 #include <scree/bodies/rigid_placement.h>
 #include <scree/contact/contact_pairs.h>
 #include <scree/contact/contact_reach.h>
+#include <scree/mechanics/motion_rates.h>
 #include <scree/mechanics/moving_level_sets.h>
 #include <scree/mechanics/step_criteria.h>
 
@@ -18,6 +19,7 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
     : parameters(parameters)
     , communicator(communicator)
     , run_log(run_log)
+    , scheme(make_time_scheme<dim>(parameters.time_scheme))
     , grid(std::make_unique<BackgroundGrid<dim>>(parameters.grid, communicator))
 {
   current.bodies = make_bodies_and_laws();
@@ -32,7 +34,9 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   current.was_closed.assign(problem().contact().points().size(), false);
   current.displacement = zero_displacement(problem().space);
   current.contact      = problem().contact().initial_history();
-  if (is_moving())
+  if (problem().mass)
+    start_motion(step_size);
+  else if (is_moving())
     start_step();
 }
 
@@ -106,9 +110,9 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{parameters.discretization, parameters.contact.shift,
-                                     parameters.contact.enforcement, parameters.moving,
-                                     parameters.linear_solver};
+  const ProblemParameters of_problem{
+    parameters.discretization, parameters.contact.shift, parameters.contact.enforcement,
+    parameters.moving,         parameters.linear_solver, parameters.time_scheme.has_inertia()};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }
@@ -121,9 +125,9 @@ Model<dim>::accept(const Vector &u, const double time, Rates rates)
   if (time > current.time)
     {
       current.predictor.step_size = time - current.time;
+      current.predictor.rates     = std::move(rates);
       if (!is_moving())
         {
-          current.predictor.rates = std::move(rates);
           for (unsigned int i = 0; i < current.was_closed.size(); ++i)
             if (contact.responses()[i].pressure != 0.)
               current.was_closed[i] = true;
@@ -171,7 +175,8 @@ Model<dim>::move_bodies(const Vector &ghosted)
         const auto q = rigid_unknowns(problem().space, b, ghosted);
         for (unsigned int m = 0; m < q.size(); ++m)
           predictor.of_rigid[b][m] = q[m] - bodies[b].pose.unknowns()[m];
-        place_rigid_body(bodies[b], q, lattice_frame(), margin);
+        place_rigid_body(bodies[b], RigidPose<dim>::unwound(*bodies[b].rigid, q), lattice_frame(),
+                         margin);
       }
   return n_islands;
 }
@@ -187,9 +192,22 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
     current.step_end.multipliers.push_back(ghosted(problem().space.multiplier(i)));
   MotionRecord<dim> record;
   record.transfer_report = problem().kinematics->transfer_report();
-  record.n_islands       = move_bodies(ghosted);
-  current.points         = std::move(points);
-  const auto before      = current.points.totals(current.bodies.size(), communicator);
+  if (problem().mass)
+    {
+      const auto &rates = current.predictor.rates;
+      const auto  v     = problem().mass->with_ghosts(rates.velocity),
+                 a      = problem().mass->with_ghosts(rates.acceleration),
+                 f      = problem().mass->with_ghosts(rates.forces);
+      current.predictor.rates_of_rigid.resize(current.bodies.size());
+      for (unsigned int b = 0; b < current.bodies.size(); ++b)
+        if (current.bodies[b].is_rigid())
+          current.predictor.rates_of_rigid[b]
+            = {rigid_unknowns(problem().space, b, v), rigid_unknowns(problem().space, b, a),
+               rigid_unknowns(problem().space, b, f)};
+    }
+  record.n_islands  = move_bodies(ghosted);
+  current.points    = std::move(points);
+  const auto before = current.points.totals(current.bodies.size(), communicator);
   require_inside_box(problem(), current.points, current.time);
   discretise(step_size);
   start_step();
@@ -207,16 +225,80 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
 
 template <int dim>
 void
+Model<dim>::start_motion(const double step_size)
+{
+  const Mass<dim>  &mass        = *problem().mass;
+  Equilibrium<dim> &equilibrium = problem().equilibrium();
+  Rates            &rates       = current.predictor.rates;
+  const auto        velocities  = mass.initial_velocities();
+  rates.velocity                = mass.fit(velocities);
+  rates.acceleration            = rates.velocity;
+  rates.acceleration            = 0.;
+  mass.set_initial_motion(rates);
+  set_prescribed_rates(equilibrium, current.time, step_size, nullptr, rates);
+  set_rigid_rows();
+  // What is prescribed and the loads act from the beginning.
+  Vector u = current.displacement, r = u;
+  equilibrium.set_time(current.time, u);
+  equilibrium.residual(u, current.contact, r);
+  r = equilibrium.forces_without_inertia();
+  mass.set_accelerations(
+    u, r, [&](Vector &v) { equilibrium.strong_supports().set_zero(v); }, rates);
+  rates.forces = r;
+  if (is_moving())
+    {
+      current.points.velocity     = velocities;
+      current.points.acceleration = mass.at_points(rates.acceleration);
+      current.points.forcing      = mass.at_points(mass.solve(r));
+    }
+  equilibrium.set_kinetic_energy(mass.kinetic_energy(u, rates));
+  equilibrium.start_motion(current.time, u, current.contact);
+  current.energies = equilibrium.energies();
+}
+
+template <int dim>
+void
+Model<dim>::fit_rates()
+{
+  const Mass<dim>              &mass  = *problem().mass;
+  const DisplacementSpace<dim> &space = problem().space;
+  Rates                        &rates = current.predictor.rates;
+  rates.velocity                      = mass.fit(current.points.velocity);
+  rates.acceleration                  = mass.fit(current.points.acceleration);
+  rates.forces                        = mass.forces(current.points.forcing);
+  for (unsigned int b = 0; b < current.bodies.size(); ++b)
+    if (current.bodies[b].is_rigid())
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        if (const DofIndex row = space.rigid_unknown(b) + m; space.owned().is_element(row))
+          {
+            rates.velocity(row)     = current.predictor.rates_of_rigid[b][0][m];
+            rates.acceleration(row) = current.predictor.rates_of_rigid[b][1][m];
+            rates.forces(row)       = current.predictor.rates_of_rigid[b][2][m];
+          }
+  for (Vector *vector : {&rates.velocity, &rates.acceleration, &rates.forces})
+    vector->compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
+Model<dim>::set_rigid_rows()
+{
+  for (unsigned int b = 0; b < current.bodies.size(); ++b)
+    if (current.bodies[b].is_rigid())
+      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
+        if (problem().space.owned().is_element(problem().space.rigid_unknown(b) + m))
+          current.displacement(problem().space.rigid_unknown(b) + m)
+            = current.bodies[b].pose.unknowns()[m];
+  current.displacement.compress(dealii::VectorOperation::insert);
+}
+
+template <int dim>
+void
 Model<dim>::start_step()
 {
-  const DisplacementSpace<dim> &space  = problem().space;
-  const auto                   &bodies = current.bodies;
-  current.displacement                 = zero_displacement(space);
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    if (bodies[b].is_rigid())
-      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (space.owned().is_element(space.rigid_unknown(b) + m))
-          current.displacement(space.rigid_unknown(b) + m) = bodies[b].pose.unknowns()[m];
+  const DisplacementSpace<dim> &space = problem().space;
+  current.displacement                = zero_displacement(space);
+  set_rigid_rows();
   const StepEnd<dim> &end = current.step_end;
   for (unsigned int i = 0; i < end.multipliers.size(); ++i)
     if (space.owned().is_element(space.multiplier(i)))
@@ -225,6 +307,15 @@ Model<dim>::start_step()
   current.contact = recall(problem().contact(), end.contact);
   keep_resultants(problem().contact(), end.contact, current.contact, communicator);
   problem().contact().start_step(current.contact);
+  if (problem().mass)
+    {
+      fit_rates();
+      const Rates &rates = current.predictor.rates;
+      problem().equilibrium().set_kinetic_energy(
+        problem().mass->kinetic_energy(current.displacement, rates));
+      problem().equilibrium().set_inertia(
+        inertia_of<dim>(problem().mass, current.displacement, rates));
+    }
   problem().equilibrium().start_step(current.time, current.displacement, current.contact,
                                      current.energies,
                                      !current.has_started ? nullptr : &end.driving);

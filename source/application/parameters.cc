@@ -162,12 +162,10 @@ Parameters<dim>::declare(ParameterFile &file)
     = root.subsection("Discretization", "Basis and cut cells.");
   discretization.declare(discretization_section);
   materials = declare_materials(root);
-  std::vector<std::string> material_names, body_names;
-  for (const auto &entry : materials)
-    material_names.push_back(entry.first);
+  std::vector<std::string> body_names;
 
   ParameterSection body_section = root.subsection("Bodies", "The bodies.");
-  bodies                        = declare_bodies<dim>(body_section, material_names);
+  bodies                        = declare_bodies<dim>(body_section, materials);
   for (const auto &body : bodies)
     body_names.push_back(body.name);
   const std::string clash = clashing_pairs(body_names);
@@ -185,6 +183,7 @@ Parameters<dim>::declare(ParameterFile &file)
 
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
+  time_scheme.declare(time_section);
 
   ParameterSection solver_section = root.subsection("Solver", "How the equations are solved.");
   ParameterSection newton_section = solver_section.subsection("Newton", "Newton's method.");

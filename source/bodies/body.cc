@@ -17,6 +17,14 @@ BodyParameters<dim>::declare(ParameterSection &section)
   section.entry("Material", material, "Name of the material, of section Materials.");
   section.entry("Body force", body_force,
                 "Force per volume, expressions of x, y, z, t separated by ';' [force/L^3].");
+  section.entry("Initial velocity", initial_velocity,
+                "At t = 0, of runs with inertia: expressions of x, y, z separated by ';' "
+                "[L/time].");
+  section.entry("Initial spin", initial_spin,
+                "Adds a rotation about the centre of mass, counter-clockwise; three components in "
+                "3D [rad/time].");
+  if (!initial_spin.empty() && initial_spin.size() != (dim == 2 ? 1 : 3))
+    section.error("Initial spin", dim == 2 ? "must be one number" : "needs three components");
   ParameterSection shape_section = section.subsection("Shape", "The body's shape.");
   shape.declare(shape_section);
   ParameterSection condition_section
@@ -28,6 +36,7 @@ BodyParameters<dim>::declare(ParameterSection &section)
       conditions.back().second.declare(subsection);
     }
   check_expression<dim>(section, "Body force", body_force, dim);
+  check_expression<dim>(section, "Initial velocity", initial_velocity, dim);
   ParameterSection motion_section
     = section.subsection("Motion", "How a rigid body moves. Components without a line stay.");
   motion.declare(motion_section);
@@ -35,22 +44,30 @@ BodyParameters<dim>::declare(ParameterSection &section)
 
 template <int dim>
 std::vector<BodyParameters<dim>>
-declare_bodies(ParameterSection &section, const std::vector<std::string> &material_names)
+declare_bodies(ParameterSection                                &section,
+               const std::map<std::string, MaterialParameters> &materials)
 {
   std::vector<BodyParameters<dim>> bodies;
+  std::string                      gravity = BodyParameters<dim>().gravity;
+  section.entry("Gravity", gravity,
+                "Acceleration that acts on the mass of all bodies, expressions of t separated by "
+                "';' [L/time^2].");
+  check_expression<dim>(section, "Gravity", gravity, dim);
   for (auto &[name, subsection] : section.named("Names", "Names of the bodies."))
     {
       bodies.emplace_back();
-      bodies.back().name = name;
+      bodies.back().name    = name;
+      bodies.back().gravity = gravity;
       bodies.back().declare(subsection);
       const std::string &material = bodies.back().material;
       std::string        known;
-      for (const auto &candidate : material_names)
-        known += (known.empty() ? "" : ", ") + candidate;
+      for (const auto &candidate : materials)
+        known += (known.empty() ? "" : ", ") + candidate.first;
       if (material.empty())
         subsection.error("Material", "no material is given", "one of: " + known);
-      else if (std::find(material_names.begin(), material_names.end(), material)
-               == material_names.end())
+      else if (const auto found = materials.find(material); found != materials.end())
+        bodies.back().density = found->second.density;
+      else
         subsection.error("Material", "there is no material '" + material + "'", "one of: " + known);
     }
   return bodies;
@@ -80,6 +97,13 @@ template <int dim>
 void
 check_use(const BodyParameters<dim> &body, const bool is_rigid)
 {
+  const auto &load = body.motion.load;
+  require(body.density > 0. || body.gravity == BodyParameters<dim>().gravity
+            || (is_rigid
+                && std::all_of(load.begin(), load.end(),
+                               [](const std::string &formula) { return formula.empty(); })),
+          body.path, "gravity acts on the body '" + body.name + "', which has no mass",
+          "set Density in the section of its material, or remove Bodies/Gravity");
   if (!is_rigid)
     {
       require(!body.motion.is_given, body.path + "/Motion", "the body is not rigid",
@@ -89,7 +113,9 @@ check_use(const BodyParameters<dim> &body, const bool is_rigid)
   require(body.conditions.empty(), body.path + "/Boundary conditions",
           "a rigid body has no boundary conditions", "prescribe its motion in section Motion");
   require(body.body_force == BodyParameters<dim>().body_force, body.path + "/Body force",
-          "a rigid body has no volume to act on", "give its weight as a force in section Motion");
+          "a rigid body has no volume to act on",
+          "set Bodies/Gravity and the Density of its material, or "
+          "give its weight as a force in section Motion");
 }
 
 /** The motion of a rigid body, with a coarse lattice of its whole shape for pictures. */
@@ -121,7 +147,17 @@ make_rigid_body(const BodyParameters<dim> &body, const std::shared_ptr<const Sha
   Lattice<dim> picture({lower, spacing, box}, first, n_nodes);
   for (std::size_t i = 0; i < picture.values().size(); ++i)
     picture.values()[i] = shape->signed_distance(picture.node(picture.index(i)));
-  return std::make_shared<RigidBody<dim>>(body.motion, box, picture, shape);
+  return std::make_shared<RigidBody<dim>>(body.motion, box, picture, shape, body.density);
+}
+
+template <int dim>
+dealii::Tensor<1, 3>
+initial_spin(const BodyParameters<dim> &body)
+{
+  dealii::Tensor<1, 3> result;
+  for (unsigned int i = 0; i < body.initial_spin.size(); ++i)
+    result[dim == 2 ? 2 : i] = body.initial_spin[i];
+  return result;
 }
 } // namespace
 
@@ -197,7 +233,11 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
         material,
         is_rigid ? make_rigid_body(body, shape, box) : nullptr,
         Expression<dim>(body.body_force, dim, body.path + "/Body force"),
-        conditions};
+        conditions,
+        body.density,
+        Expression<dim>(body.gravity, dim, "Bodies/Gravity"),
+        Expression<dim>(body.initial_velocity, dim, body.path + "/Initial velocity"),
+        initial_spin(body)};
       bodies.emplace_back(
         definition,
         BodyGeometry<dim>{make_lattice(shape, body_frame, margin, body.path + "/Shape", most_nodes),
@@ -216,12 +256,12 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
   template dealii::Tensor<2, dim> initial_gradient(const Body<dim> &, const dealii::Point<dim> &); \
   template std::pair<double, dealii::Tensor<1, dim>> value_and_gradient(                           \
     const Body<dim> &, const SmoothPiece<dim> &, const dealii::Point<dim> &);                      \
-  template std::vector<BodyParameters<dim>> declare_bodies(ParameterSection &,                     \
-                                                           const std::vector<std::string> &);      \
-  template std::vector<Body<dim>>           make_bodies(                                           \
-              const std::vector<BodyParameters<dim>> &,                                            \
-              const std::map<std::string, std::shared_ptr<const Material<dim>>> &,                 \
-              const LatticeFrame<dim> &, const double, const bool);
+  template std::vector<BodyParameters<dim>> declare_bodies(                                        \
+    ParameterSection &, const std::map<std::string, MaterialParameters> &);                        \
+  template std::vector<Body<dim>> make_bodies(                                                     \
+    const std::vector<BodyParameters<dim>> &,                                                      \
+    const std::map<std::string, std::shared_ptr<const Material<dim>>> &,                           \
+    const LatticeFrame<dim> &, const double, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

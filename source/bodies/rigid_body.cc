@@ -185,14 +185,17 @@ MotionParameters<dim>::declare(ParameterSection &section)
 template <int dim>
 RigidBody<dim>::RigidBody(const MotionParameters<dim>    &parameters,
                           const dealii::BoundingBox<dim> &box, const Lattice<dim> &picture,
-                          const std::shared_ptr<const Shape<dim>> &shape)
+                          const std::shared_ptr<const Shape<dim>> &shape, const double density)
     : reference_point(box.center())
     , radius(0.)
     , box(box)
     , picture(picture)
     , shape(shape)
+    , density(density)
     , path(parameters.path)
 {
+  if (density > 0.)
+    moments = moments_of(*shape, picture);
   if (!parameters.reference_point.empty())
     for (unsigned int d = 0; d < dim; ++d)
       reference_point[d] = parameters.reference_point[d];
@@ -224,6 +227,25 @@ RigidBody<dim>::value(const unsigned int component, const double time) const
       what << "'" << values[component].text() << "' is no finite number at t = " << time;
       throw UserError(path, what.str(), "check divisions, roots and logarithms");
     }
+  return result;
+}
+
+template <int dim>
+typename RigidPose<dim>::Unknowns
+RigidPose<dim>::unwound(const RigidBody<dim> &body, const Unknowns &q)
+{
+  Unknowns result = q;
+  double   square = 0.;
+  bool     turns  = dim == 3;
+  for (unsigned int m = dim; m < q.size(); ++m)
+    {
+      square += q[m] * q[m];
+      turns &= body.is_free(m);
+    }
+  const double angle = std::sqrt(square) / body.radius;
+  if (turns && angle > dealii::numbers::PI)
+    for (unsigned int m = dim; m < q.size(); ++m)
+      result[m] *= 1. - 2. * dealii::numbers::PI / angle;
   return result;
 }
 

@@ -85,13 +85,23 @@ extreme_constants(const MaterialParameters &parameters)
 std::vector<Problem>
 problems_of(const MaterialParameters &parameters)
 {
+  std::vector<Problem> problems;
+  // The negated comparisons are also true for NaN.
+  if (!(parameters.density >= 0))
+    problems.push_back({"Density", "must not be negative", "give the mass per volume, or 0"});
   if (parameters.is_rigid())
-    return superfluous({{"Young's modulus", parameters.young},
+    {
+      for (const Problem &problem :
+           superfluous({{"Young's modulus", parameters.young},
                         {"Poisson's ratio", parameters.poisson},
                         {"Yield stress", parameters.yield_stress},
                         {"Hardening modulus", parameters.hardening_modulus}},
-                       "a rigid material has none", "remove the line");
-  std::vector<Problem> problems = hardening_problems(parameters);
+                       "a rigid material has none", "remove the line"))
+        problems.push_back(problem);
+      return problems;
+    }
+  for (const Problem &problem : hardening_problems(parameters))
+    problems.push_back(problem);
   if (!(parameters.young > 0))
     problems.push_back({"Young's modulus", "must be set to a number greater than 0",
                         "give E in force per area, e.g. 210e9 for steel in SI units"});
@@ -99,8 +109,6 @@ problems_of(const MaterialParameters &parameters)
     problems.push_back(
       {"Poisson's ratio", "must be set to a number greater than -1 and less than 0.5",
        "0.5 (incompressible) is not possible in a displacement formulation; take 0.49999 at most"});
-  if (!(parameters.density >= 0))
-    problems.push_back({"Density", "must not be negative", "give the mass per volume, or 0"});
   for (const Problem &problem : extreme_constants(parameters))
     problems.push_back(problem);
   return problems;

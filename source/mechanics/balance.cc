@@ -129,9 +129,10 @@ Equilibrium<dim>::balance(const Vector &u) const
 {
   Vector body_forces(contact_forces), held(internal_forces);
   body_forces = 0.;
-  bulk.add_body_forces(body_forces, time);
+  add_volume_forces(body_forces);
   body_forces.compress(dealii::VectorOperation::add);
   body_forces += inertia_forces;
+  body_forces.add(inertia.contact_weight - 1., contact_forces);
   reactions(held);
 
   auto sums = node_sums(space, bodies, u, contact_forces, body_forces);

@@ -96,44 +96,92 @@ Bulk<dim>::body_force(const unsigned int active_cell, const dealii::Point<dim> &
 }
 
 template <int dim>
+template <typename F>
 void
-Bulk<dim>::add_body_forces(Vector &loads, const double time) const
+Bulk<dim>::for_each_volume(const unsigned int active_cell, const F &f) const
+{
+  const CellRule<dim> points = rule(active_cell);
+  std::vector<double> reference_volumes;
+  set_reference_volumes(active_cell, reference_volumes);
+  double volume = 0., reference_volume = 0.;
+  for (unsigned int q = 0; q < points.n_points; ++q)
+    {
+      f(points.points[q], reference_volumes[q]);
+      volume += points.weights[q] * points.weight_scale;
+      reference_volume += reference_volumes[q];
+    }
+  const auto &surface = quadrature.surface;
+  for (unsigned int q = surface.begin[active_cell];
+       q < surface.begin[active_cell + 1] && volume > 0.; ++q)
+    if (const double width = quadrature.strip_widths[q]; width != 0.)
+      f(surface.points[q] + 0.5 * width / space.cell_size(active_cell) * surface.normals[q],
+        width * surface.weights[q] * reference_volume / volume);
+}
+
+template <int dim>
+template <typename Acts, typename F>
+void
+Bulk<dim>::add_volume_forces(const Acts &acts, const F &b, Vector &loads) const
 {
   const unsigned int     n = space.basis.n_nodes;
-  std::vector<double>    shape(n), reference_volumes;
+  std::vector<double>    shape(n);
   dealii::Vector<double> cell_load(n * dim);
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const ActiveCell &cell = space.cells()[a];
-      if (bodies[cell.body].body_force.text() == (dim == 2 ? "0; 0" : "0; 0; 0"))
+      if (!acts(bodies[space.cells()[a].body]))
         continue;
-      const CellRule<dim> points = rule(a);
-      const double        size   = space.cell_size(a);
-      set_reference_volumes(a, reference_volumes);
-      double volume = 0., reference_volume = 0.;
-      cell_load      = 0.;
-      const auto add = [&](const dealii::Point<dim> &unit_point, const double weight) {
-        const dealii::Tensor<1, dim> b = weight * body_force(a, unit_point, time);
+      cell_load = 0.;
+      for_each_volume(a, [&](const dealii::Point<dim> &unit_point, const double volume) {
+        const dealii::Tensor<1, dim> force = volume * b(a, unit_point);
         space.basis.evaluate_values(unit_point, shape.data());
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int d = 0; d < dim; ++d)
-            cell_load(i * dim + d) += shape[i] * b[d];
-      };
-      for (unsigned int q = 0; q < points.n_points; ++q)
-        {
-          add(points.points[q], reference_volumes[q]);
-          volume += points.weights[q] * points.weight_scale;
-          reference_volume += reference_volumes[q];
-        }
-      // The strip between the cut and the body's boundary.
-      const auto &surface = quadrature.surface;
-      for (unsigned int q = surface.begin[a]; q < surface.begin[a + 1] && volume > 0.; ++q)
-        if (const double width = quadrature.strip_widths[q]; width != 0.)
-          add(surface.points[q] + 0.5 * width / size * surface.normals[q],
-              width * surface.weights[q] * reference_volume / volume);
+            cell_load(i * dim + d) += shape[i] * force[d];
+      });
       space.hanging_constraints().distribute_local_to_global(
         cell_load, unknowns_of_nodes<dim>(space.nodes(a), n), loads);
     }
+}
+
+template <int dim>
+void
+Bulk<dim>::add_body_forces(Vector &loads, const double time) const
+{
+  add_volume_forces(
+    [](const Body<dim> &body) { return body.body_force.text() != (dim == 2 ? "0; 0" : "0; 0; 0"); },
+    [&](const unsigned int a, const dealii::Point<dim> &unit_point) {
+      return body_force(a, unit_point, time);
+    },
+    loads);
+}
+
+template <int dim>
+void
+Bulk<dim>::add_weight(Vector &loads, const double time) const
+{
+  std::vector<dealii::Tensor<1, dim>> weights;
+  for (const auto &body : bodies)
+    weights.push_back(body.weight(time));
+  add_volume_forces(
+    [&](const Body<dim> &body) { return weights[&body - bodies.data()].norm() > 0.; },
+    [&](const unsigned int a, const dealii::Point<dim> &) {
+      return weights[space.cells()[a].body];
+    },
+    loads);
+}
+
+template <int dim>
+MassPoints<dim>
+Bulk<dim>::mass_points() const
+{
+  MassPoints<dim> result;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    for_each_volume(a, [&](const dealii::Point<dim> &unit_point, const double volume) {
+      result.places.push_back({a, unit_point});
+      result.positions.push_back(space.position(a, unit_point));
+      result.masses.push_back(volume * bodies[space.cells()[a].body].density);
+    });
+  return result;
 }
 
 template <int dim>

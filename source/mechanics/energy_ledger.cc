@@ -158,12 +158,22 @@ EnergyLedger<dim>::count_overlap()
 }
 
 template <int dim>
+void
+EnergyLedger<dim>::start_motion(const EvaluatedState<dim> &state)
+{
+  set_accepted_forces(state);
+  store_energies(state);
+  current_energies.external_work = current_energies.stored();
+}
+
+template <int dim>
 double
 EnergyLedger<dim>::store_energies(const EvaluatedState<dim> &state)
 {
   current_energies.contact  = stored_energy(contact, space.grid.communicator());
   const auto of_bulk        = kinematics.bulk().work(state.field);
   current_energies.strain   = of_bulk.energy;
+  current_energies.kinetic  = state.kinetic_energy;
   current_energies.boundary = boundary_terms.energy(state.field, state.time);
   current_energies.ghost_penalty
     = kinematics.bulk().energy_of_small_cuts(kinematics.whole_displacement(state.field));
@@ -218,6 +228,14 @@ EnergyLedger<dim>::start_step(const EvaluatedState<dim> &state, const Vector &un
   double cut = cut_energy(contact, history, space.grid.communicator());
   cut += store_energies(state);
   current_energies.transfer += current_energies.stored() + cut - energies.stored();
+}
+
+template <int dim>
+void
+EnergyLedger<dim>::start_without_transfer(const Energies &energies)
+{
+  current_energies = energies;
+  unbalanced.reset();
 }
 
 template <int dim>

@@ -17,8 +17,10 @@ template <int dim>
 Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
                               const std::vector<Body<dim>> &bodies,
                               const Kinematics<dim>        &kinematics,
-                              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact)
+                              const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact,
+                              const std::shared_ptr<const Mass<dim>> &mass)
     : kinematics(kinematics)
+    , mass(mass)
     , space(space)
     , bodies(bodies)
     , bulk(kinematics.bulk())
@@ -26,7 +28,8 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
     , contact(contact)
     , supports(space, bodies, kinematics)
     , rigid(space, bodies, contact)
-    , free(space, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite())
+    , free(space, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite(),
+           mass != nullptr)
     , ledger(space, bodies, kinematics, boundary_terms, contact, supports, rigid)
     , seen_by_bulk(space)
 {
@@ -89,12 +92,23 @@ Equilibrium<dim>::set_up_matrices()
 
 template <int dim>
 void
+Equilibrium<dim>::add_volume_forces(Vector &forces) const
+{
+  bulk.add_body_forces(forces, time);
+  if (mass) // Gravity accelerates what has mass.
+    mass->add_weight(forces, time);
+  else
+    bulk.add_weight(forces, time);
+}
+
+template <int dim>
+void
 Equilibrium<dim>::set_time(const double new_time, Vector &u)
 {
   time       = new_time;
   is_driven  = true;
   dead_loads = 0.;
-  bulk.add_body_forces(dead_loads, time);
+  add_volume_forces(dead_loads);
   boundary_terms.add_loads(dead_loads, time, true, false);
   dead_loads.compress(dealii::VectorOperation::add);
   loads = 0.;
@@ -102,21 +116,6 @@ Equilibrium<dim>::set_time(const double new_time, Vector &u)
   loads.compress(dealii::VectorOperation::add);
   loads += dead_loads;
   set_prescribed(u);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::set_inertia(Inertia of_step)
-{
-  inertia        = std::move(of_step);
-  inertia_forces = 0.;
-}
-
-template <int dim>
-bool
-Equilibrium<dim>::has_inertia() const
-{
-  return inertia.factor != 0.;
 }
 
 template <int dim>
@@ -169,6 +168,7 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   scratch = u;
   scratch.scale(diagonal);
   stiffness_times_displacement = scratch.l2_norm();
+  inertia_terms                = has_inertia() ? inertia.size_of_terms() : 0.;
   contact.evaluate(ghosted, history);
   contact_forces = 0.;
   contact.add_to_residual(contact_forces);
@@ -199,9 +199,9 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
   r += applied_forces;
   if (has_inertia())
     {
-      inertia.mass->vmult(inertia_forces, u);
-      inertia_forces.sadd(-inertia.factor, 1., inertia.forces);
+      inertia.get_forces(u, ghosted, inertia_forces);
       r += inertia_forces;
+      r.add(inertia.contact_weight - 1., contact_forces);
     }
   if (drag != 0.)
     {
@@ -210,12 +210,19 @@ Equilibrium<dim>::residual(const Vector &u, const ContactHistory<dim> &history, 
       scratch.scale(artificial_mass);
       r.add(-drag, scratch);
     }
+  set_zero_where_not_sought(r);
+  hold_moments(r);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_zero_where_not_sought(Vector &r) const
+{
   set_zero_on_prescribed(r);
   for (const auto &line : space.hanging_constraints().get_lines())
     if (space.owned().is_element(line.index))
       r(line.index) = 0.;
   r.compress(dealii::VectorOperation::insert);
-  hold_moments(r);
 }
 
 template <int dim>
@@ -224,7 +231,10 @@ Equilibrium<dim>::start_tangent()
 {
   newton_matrix.copy_from(stiffness);
   if (has_inertia())
-    newton_matrix.add(inertia.factor, *inertia.mass);
+    {
+      newton_matrix.add(inertia.factor, *inertia.mass->matrix());
+      inertia.add_tangent(ghosted, newton_matrix);
+    }
 }
 
 template <int dim>
@@ -234,8 +244,17 @@ Equilibrium<dim>::tangent()
   start_tangent();
   bulk.add_tangent(seen_by_bulk, newton_matrix);
   boundary_terms.add_tangent(seen_by_bulk, time, newton_matrix);
-  contact.add_to_matrix(newton_matrix);
   rigid.add_to_matrix(ghosted, time, newton_matrix);
+  if (inertia.contact_weight == 1.)
+    contact.add_to_matrix(newton_matrix);
+  else
+    {
+      newton_matrix.compress(dealii::VectorOperation::add);
+      newton_matrix *= 1. / inertia.contact_weight;
+      contact.add_to_matrix(newton_matrix);
+      newton_matrix.compress(dealii::VectorOperation::add);
+      newton_matrix *= inertia.contact_weight;
+    }
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);
@@ -343,7 +362,7 @@ template <int dim>
 double
 Equilibrium<dim>::round_off() const
 {
-  return 1e-15 * stiffness_times_displacement
+  return 1e-15 * (stiffness_times_displacement + inertia_terms)
          + 1e-16 * kinematics.position_scale() * diagonal.l2_norm();
 }
 
@@ -425,74 +444,6 @@ Equilibrium<dim>::condition_names() const
   for (const auto &[body, condition] : supports.conditions())
     names.push_back(bodies[body].name + "." + condition->name);
   return names;
-}
-
-template <int dim>
-EvaluatedState<dim>
-Equilibrium<dim>::evaluated(const Vector &u) const
-{
-  Vector driving(internal_forces);
-  reactions(driving);
-  driving += applied_forces;
-  return {time, u, at_points(u), loads, dead_loads, contact_forces, driving};
-}
-
-template <int dim>
-typename Equilibrium<dim>::Vector
-Equilibrium<dim>::take_as_accepted(const double time, const ContactHistory<dim> &history, Vector &u)
-{
-  set_time(time, u);
-  ledger.set_accepted(time, u);
-  Vector r(u);
-  residual(u, history, r);
-  return r;
-}
-
-template <int dim>
-void
-Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
-                             const Energies &energies, const DrivingForces<dim> *driving)
-{
-  Vector accepted   = u;
-  Vector unbalanced = take_as_accepted(time, history, accepted);
-  if (driving == nullptr)
-    {
-      // Bodies may overlap: only contact is unbalanced.
-      unbalanced = contact_forces;
-      set_zero_on_prescribed(unbalanced);
-    }
-  ledger.start_step(evaluated(accepted), unbalanced, history, energies, driving);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::resume(const double time, const Vector &u, const ContactHistory<dim> &history,
-                         const Energies &energies)
-{
-  Vector accepted = u;
-  take_as_accepted(time, history, accepted);
-  ledger.resume(evaluated(accepted), energies);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::accept(const Vector &u, const ContactHistory<dim> &old_history)
-{
-  ledger.accept(evaluated(u), old_history);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history)
-{
-  ledger.accept_as_transfer(evaluated(u), old_history);
-}
-
-template <int dim>
-void
-Equilibrium<dim>::count_overlap()
-{
-  ledger.count_overlap();
 }
 
 template class Equilibrium<2>;

@@ -41,7 +41,8 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
                             const std::vector<Body<dim>> &bodies,
                             const StrongSupports<dim>    &supports,
                             const BoundaryTerms<dim>     &boundary_terms,
-                            const ContactPoints<dim> &contact, const bool turns_finitely)
+                            const ContactPoints<dim> &contact, const bool turns_finitely,
+                            const bool has_mass)
     : bodies(bodies)
     , supports(supports)
     , boundary_terms(boundary_terms)
@@ -54,7 +55,7 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
   for (const auto &body : bodies)
     motions.emplace_back(body);
   const auto held = resistance_of_supports(motions);
-  for (unsigned int b = 0; b < bodies.size(); ++b)
+  for (unsigned int b = 0; b < bodies.size() && !has_mass; ++b)
     {
       const double      trace = held[b].trace();
       const DenseMatrix basis = trace == 0. ? DenseMatrix(dealii::IdentityMatrix(held[b].m()))

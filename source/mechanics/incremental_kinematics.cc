@@ -163,6 +163,14 @@ IncrementalKinematics<dim>::arm_error(const double largest_displacement) const
 }
 
 template <int dim>
+MassPoints<dim>
+IncrementalKinematics<dim>::mass_points() const
+{
+  const MaterialPoints<dim> &carriers = start->points();
+  return {start->material_points(), carriers.position, carriers.mass};
+}
+
+template <int dim>
 typename IncrementalKinematics<dim>::Vector
 IncrementalKinematics<dim>::extrapolated(const State<dim> &state, const double time) const
 {

@@ -13,20 +13,22 @@ QuasiStatic<dim>::predicted(const Kinematics<dim> &kinematics, const State<dim> 
 }
 
 template <int dim>
-Inertia
-QuasiStatic<dim>::inertia(const Kinematics<dim> &, const State<dim> &, const double) const
+Inertia<dim>
+QuasiStatic<dim>::inertia(const std::shared_ptr<const Mass<dim>> &, const State<dim> &,
+                          const double) const
 {
   return {};
 }
 
 template <int dim>
 Rates
-QuasiStatic<dim>::rates(const State<dim> &state, const Vector &u, const double time) const
+QuasiStatic<dim>::rates(const Mass<dim> *, const State<dim> &state, const Vector &u, const Vector &,
+                        const double time) const
 {
   Vector velocity = u;
   velocity -= state.displacement;
   velocity *= 1. / (time - state.time);
-  return {velocity, {}};
+  return {velocity, {}, {}};
 }
 
 template class QuasiStatic<2>;

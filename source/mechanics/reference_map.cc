@@ -228,7 +228,9 @@ dealii::TrilinosWrappers::MPI::Vector
 fit_displacement(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points,
                  const std::vector<PointInCell<dim>> &locations)
 {
-  Vector                   displacement(space.owned(), space.grid.communicator());
+  Vector displacement(space.owned(), space.grid.communicator());
+  if (space.n_dofs() == space.n_trailing()) // all bodies are rigid
+    return displacement;
   const NodeNumbering<dim> nodes(space);
   Fit<dim>(nodes, points, locations).solve(displacement);
   return displacement;

@@ -63,6 +63,29 @@ RigidBodies<dim>::applied_moment(const unsigned int body, const double time) con
 }
 
 template <int dim>
+std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, 3>>
+RigidBodies<dim>::applied_load(const unsigned int body, const double time) const
+{
+  dealii::Tensor<1, dim> force;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (bodies[body].rigid->is_free(d))
+      force[d] = bodies[body].rigid->value(d, time);
+  return {force, applied_moment(body, time)};
+}
+
+template <int dim>
+typename RigidPose<dim>::Load
+RigidBodies<dim>::weight(const unsigned int body, const double time) const
+{
+  const RigidBody<dim>         &rigid = *bodies[body].rigid;
+  typename RigidPose<dim>::Load result;
+  if (rigid.density > 0.)
+    result.add(rigid.moments.centre - rigid.reference_point,
+               rigid.moments.volume * bodies[body].weight(time));
+  return result;
+}
+
+template <int dim>
 RigidPose<dim>
 RigidBodies<dim>::pose(const unsigned int body, const Vector &u) const
 {
@@ -75,13 +98,16 @@ RigidBodies<dim>::applied(const Vector &u, const double time, Vector &forces) co
 {
   for (const unsigned int b : rigid_bodies)
     {
-      const RigidBody<dim> &rigid  = *bodies[b].rigid;
-      const auto            moment = pose(b, u).generalised_moment(applied_moment(b, time));
+      const RigidBody<dim> &rigid     = *bodies[b].rigid;
+      const auto            where     = pose(b, u);
+      const auto            moment    = where.generalised_moment(applied_moment(b, time));
+      const auto            of_weight = where.generalised_force(weight(b, time));
       for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
         {
           const DofIndex unknown = space.rigid_unknown(b) + m;
           if (rigid.is_free(m) && space.owned().is_element(unknown))
-            forces(unknown) = m < dim ? rigid.value(m, time) : moment[rotation_axis<dim>(m)];
+            forces(unknown)
+              = of_weight[m] + (m < dim ? rigid.value(m, time) : moment[rotation_axis<dim>(m)]);
         }
     }
   forces.compress(dealii::VectorOperation::insert);
@@ -95,10 +121,12 @@ RigidBodies<dim>::add_to_matrix(const Vector &u, const double time,
   for (const unsigned int b : rigid_bodies)
     {
       const dealii::Tensor<1, 3> moment = applied_moment(b, time);
+      const auto                 load   = weight(b, time);
       const DofIndex             first  = space.rigid_unknown(b);
-      if (moment.norm() == 0. || !space.owned().is_element(first))
+      if ((moment.norm() == 0. && load.couple.norm() == 0.) || !space.owned().is_element(first))
         continue;
-      const auto derivative = pose(b, u).generalised_moment_derivative(moment);
+      const auto where      = pose(b, u);
+      const auto derivative = where.generalised_moment_derivative(moment) + where.curvature(load);
       for (unsigned int m = dim; m < n_rigid_components<dim>; ++m)
         for (unsigned int n = dim; n < n_rigid_components<dim>; ++n)
           if (bodies[b].rigid->is_free(m) && bodies[b].rigid->is_free(n))

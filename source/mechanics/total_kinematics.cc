@@ -118,6 +118,13 @@ TotalKinematics<dim>::arm_error(const double) const
 }
 
 template <int dim>
+MassPoints<dim>
+TotalKinematics<dim>::mass_points() const
+{
+  return linear_bulk.mass_points();
+}
+
+template <int dim>
 typename TotalKinematics<dim>::Vector
 TotalKinematics<dim>::extrapolated(const State<dim> &state, const double time) const
 {

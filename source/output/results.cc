@@ -161,6 +161,15 @@ Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
   for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
                                    "plastic", "external_work", "transfer", "balance_error"})
     names.push_back("energy." + energy);
+  if (equilibrium.mass)
+    {
+      names.push_back("energy.kinetic");
+      for (const auto &body : bodies)
+        {
+          add_vector_names<dim>(body.name + ".momentum", names);
+          add_axial_names<dim>(body.name + ".angular_momentum", names);
+        }
+    }
   if (!is_moving)
     return names;
   for (const auto &body : bodies)
@@ -261,7 +270,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
         values.push_back(resultant.displacement[d]);
       add_resultant<dim>(resultant.force, resultant.moment, values);
     }
-  for (const auto &state : equilibrium.rigid_bodies().states(ghosted_u))
+  for (const auto &state : equilibrium.rigid_states(ghosted_u))
     {
       const dealii::Point<dim> &reference = bodies[state.body].rigid->reference_point;
       motions[state.body] = {reference + state.displacement, state.displacement, state.rotation};
@@ -277,6 +286,11 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                               energies.contact, energies.dissipation, energies.plastic,
                               energies.external_work, energies.transfer, energies.balance_error()})
     values.push_back(energy);
+  if (equilibrium.mass)
+    {
+      values.push_back(energies.kinetic);
+      values.insert(values.end(), record.momenta.begin(), record.momenta.end());
+    }
   long_tables.gather(record.step, record.time, contact.pairs(), summaries, motions, is_moving,
                      is_first);
 }

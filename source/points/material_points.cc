@@ -109,6 +109,8 @@ MaterialPoints<dim>::add(const Point<dim> &x, const unsigned int body_number, co
   deformation_gradient.push_back(unit_symmetric_tensor<dim>());
   stress.emplace_back();
   velocity.emplace_back();
+  acceleration.emplace_back();
+  forcing.emplace_back();
   internal.resize(internal.size() + n_internal_variables, 0.);
   body.push_back(body_number);
 }

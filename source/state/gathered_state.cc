@@ -121,18 +121,20 @@ gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredStat
   result.step_end.driving.of_points = gather_joined(state.step_end.driving.of_points, communicator);
   result.increments_of_bodies       = state.predictor.of_bodies;
   result.increments_of_rigid        = state.predictor.of_rigid;
+  result.rates_of_rigid             = state.predictor.rates_of_rigid;
   for (const Body<dim> &body : state.bodies)
     result.bodies.push_back(saved_geometry(body));
 }
 
-/** The vectors of a state of a fixed geometry, with an acceleration or without. */
+/** The vectors of a state of a fixed geometry, with or without those of inertia. */
 template <typename S>
 auto
-vectors_of(S &state, const bool has_acceleration)
+vectors_of(S &state, const bool has_inertia)
 {
   std::vector result = {&state.displacement, &state.predictor.rates.velocity};
-  if (has_acceleration)
-    result.push_back(&state.predictor.rates.acceleration);
+  if (has_inertia)
+    result.insert(result.end(),
+                  {&state.predictor.rates.acceleration, &state.predictor.rates.forces});
   return result;
 }
 
@@ -197,10 +199,10 @@ restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &spa
               const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
 {
   const unsigned int n_vectors = saved.nodes.row_size() / dim;
-  require_consistent((n_vectors == 2 || n_vectors == 3)
+  require_consistent((n_vectors == 2 || n_vectors == 4)
                        && saved.trailing.size() == n_vectors * space.n_trailing(),
                      directory);
-  const auto vectors = vectors_of(state, n_vectors == 3);
+  const auto vectors = vectors_of(state, n_vectors == 4);
   for (auto *vector : vectors)
     *vector = state.displacement;
   for_each_node(space,
@@ -251,9 +253,10 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
   state.step_end = saved.step_end;
   if (rank > 0)
     state.step_end.driving.of_points.clear();
-  state.predictor.step_size = saved.last_step_size;
-  state.predictor.of_bodies = saved.increments_of_bodies;
-  state.predictor.of_rigid  = saved.increments_of_rigid;
+  state.predictor.step_size      = saved.last_step_size;
+  state.predictor.of_bodies      = saved.increments_of_bodies;
+  state.predictor.of_rigid       = saved.increments_of_rigid;
+  state.predictor.rates_of_rigid = saved.rates_of_rigid;
   for (unsigned int b = 0; b < state.bodies.size(); ++b)
     if (!state.bodies[b].is_rigid())
       restore_geometry<dim>(saved.bodies[b], directory, state.bodies[b]);

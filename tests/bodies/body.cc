@@ -19,7 +19,7 @@ bodies(const std::string &text)
 {
   ParameterFile    file       = ParameterFile::from_string(text);
   ParameterSection section    = file.root();
-  const auto       parameters = declare_bodies<2>(section, {"soft"});
+  const auto       parameters = declare_bodies<2>(section, {{"soft", {}}});
   file.check();
   MaterialParameters material;
   material.young                                = 1.;

@@ -35,6 +35,10 @@ deformed_body(const std::shared_ptr<const Shape<dim>> &shape, const Tensor<2, di
     nullptr,
     nullptr,
     Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Body force"),
+    {},
+    0.,
+    Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Gravity"),
+    Expression<dim>(dim == 2 ? "0; 0" : "0; 0; 0", dim, "Initial velocity"),
     {}};
   Body<dim> body(definition,
                  {make_lattice<dim>(shape, {lower, spacing, box}, 6. * spacing, "Shape"), box});

@@ -171,7 +171,7 @@ make(const std::string &material, const std::string &lines)
     + "\nsubsection Shape\nset Type = disc\nset Centre = 0, 0\nset Radius = 3\nend\n" + lines
     + "\nend\n");
   ParameterSection section    = file.root();
-  const auto       parameters = declare_bodies<2>(section, {"soft", "hard"});
+  const auto       parameters = declare_bodies<2>(section, {{"soft", {}}, {"hard", {}}});
   file.check();
   MaterialParameters soft, hard;
   soft.young   = 1.;

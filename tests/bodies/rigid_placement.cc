@@ -37,7 +37,7 @@ rigid_body(const std::string &shape, const std::string &hinge, const LatticeFram
     + (hinge.empty() ? "" : "subsection Motion\nset Reference point = " + hinge + "\nend\n")
     + "end\n");
   ParameterSection section    = file.root();
-  const auto       parameters = declare_bodies<dim>(section, {"hard"});
+  const auto       parameters = declare_bodies<dim>(section, {{"hard", {}}});
   file.check();
   MaterialParameters hard;
   hard.law = "rigid";

@@ -30,12 +30,9 @@ struct BodiesInput
     grid.declare(grid_section);
     ParameterSection discretization_section = root.subsection("Discretization", "");
     discretization.declare(discretization_section);
-    materials = declare_materials(root);
-    std::vector<std::string> names;
-    for (const auto &material : materials)
-      names.push_back(material.first);
+    materials                = declare_materials(root);
     ParameterSection section = root.subsection("Bodies", "");
-    bodies                   = declare_bodies<dim>(section, names);
+    bodies                   = declare_bodies<dim>(section, materials);
   }
 
   static BodiesInput from_string(const std::string &text)

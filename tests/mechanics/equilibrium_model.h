@@ -51,7 +51,8 @@ struct EquilibriumModel
 {
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-  explicit EquilibriumModel(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD)
+  explicit EquilibriumModel(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD,
+                            const bool has_inertia = false)
       : input(text)
       , cut(input.bodies, communicator)
       , quadrature(*cut.space, *cut.level_set_nodes, cut.bodies)
@@ -62,7 +63,10 @@ struct EquilibriumModel
       , contact(cut.bodies, contact_pairs(),
                 level_set_surface(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
                                   input.contact.shift * cut.grid.finest_size()))
-      , equilibrium(*cut.space, cut.bodies, kinematics, boundary_terms, contact)
+      , mass(!has_inertia ? nullptr
+                          : std::make_shared<const Mass<dim>>(*cut.space, cut.bodies, *small_cuts,
+                                                              kinematics.mass_points()))
+      , equilibrium(*cut.space, cut.bodies, kinematics, boundary_terms, contact, mass)
       , linear_solver(input.linear, dim, cut.space->basis.degree)
   {
     state.displacement = zero_displacement(*cut.space);
@@ -150,6 +154,7 @@ struct EquilibriumModel
   const Bulk<dim>                              &bulk;
   BoundaryTerms<dim>                            boundary_terms;
   ContactPoints<dim>                            contact;
+  std::shared_ptr<const Mass<dim>>              mass; //!< null without inertia
   Equilibrium<dim>                              equilibrium;
   LinearSolver                                  linear_solver;
   State<dim>                                    state;

@@ -43,6 +43,10 @@ public:
   std::pair<MaterialPoints<dim>, std::string> move_points(const Vector &u) const;
 
 private:
+  /** With inertia, where nothing resolves it. */
+  void warn_of_overlap() const;
+  /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
+  void         take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
@@ -55,17 +59,16 @@ private:
   void              observe(const NewtonIteration &iteration);
   LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
 
-  const Parameters<dim>                       &parameters;
-  const StepControl                           &step_control;
-  Model<dim>                                  &model;
-  RunLog                                      &run_log;
-  const std::unique_ptr<const TimeScheme<dim>> scheme;
-  ContactClosing<dim>                          closing;
-  StepRecord                                   record; //!< that is being solved
-  bool   is_second_attempt = false;                    //!< of all steps until it changes
-  bool   has_turned        = false;                    //!< this step, to the other kind of attempt
-  bool   has_slid          = false;       //!< bodies may have: contact was closed with friction
-  bool   is_transient      = false;       //!< K has more artificial mass
+  const Parameters<dim> &parameters;
+  const StepControl     &step_control;
+  Model<dim>            &model;
+  RunLog                &run_log;
+  ContactClosing<dim>    closing;
+  StepRecord             record;                    //!< that is being solved
+  bool                   is_second_attempt = false; //!< of all steps until it changes
+  bool                   has_turned        = false; //!< this step, to the other kind of attempt
+  bool                   has_slid = false; //!< bodies may have: contact was closed with friction
+  bool                   is_transient = false; //!< K has more artificial mass
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
   StatusChanges status_changes;
 };

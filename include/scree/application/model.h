@@ -3,6 +3,7 @@
 #include <scree/application/parameters.h>
 #include <scree/base/run_log.h>
 #include <scree/mechanics/discrete_problem.h>
+#include <scree/mechanics/time_scheme.h>
 #include <scree/output/results.h>
 #include <scree/state/gathered_state.h>
 
@@ -41,6 +42,11 @@ public:
   DiscreteProblem<dim> &problem() const
   {
     return *discrete_problem;
+  }
+
+  const TimeScheme<dim> &time_scheme() const
+  {
+    return *scheme;
   }
 
   bool is_moving() const
@@ -97,17 +103,25 @@ private:
   void discretise(const double step_size);
   /** Begins a step on the new geometry: State::displacement and the history of contact. */
   void start_step();
+  /** Sets the displacements of rigid bodies to their poses. */
+  void set_rigid_rows();
+  /** With inertia: the initial velocities, and the accelerations that belong to them. */
+  void start_motion(const double step_size);
+  /** With inertia on a moving geometry: velocities and accelerations of points and rigid bodies as
+   * fields on the new grid. */
+  void fit_rates();
   /** Level sets, boxes, poses, and what the next step expects of a displacement with ghosts;
    * returns the number of islands. */
   unsigned int move_bodies(const Vector &ghosted);
 
-  const Parameters<dim>                &parameters;
-  const MPI_Comm                        communicator;
-  RunLog                               &run_log;
-  std::unique_ptr<BackgroundGrid<dim>>  grid;
-  State<dim>                            current;
-  bool                                  pairs_are_many = false;
-  std::vector<ContactPair>              pairs;
-  std::unique_ptr<DiscreteProblem<dim>> discrete_problem;
+  const Parameters<dim>                       &parameters;
+  const MPI_Comm                               communicator;
+  RunLog                                      &run_log;
+  const std::unique_ptr<const TimeScheme<dim>> scheme;
+  std::unique_ptr<BackgroundGrid<dim>>         grid;
+  State<dim>                                   current;
+  bool                                         pairs_are_many = false;
+  std::vector<ContactPair>                     pairs;
+  std::unique_ptr<DiscreteProblem<dim>>        discrete_problem;
 };
 } // namespace scree

@@ -4,6 +4,7 @@
 #include <scree/contact/contact_parameters.h>
 #include <scree/grid/background_grid.h>
 #include <scree/mechanics/moving_geometry_parameters.h>
+#include <scree/mechanics/time_scheme_parameters.h>
 #include <scree/output/probes.h>
 #include <scree/parameters/file.h>
 #include <scree/solver/linear_solver.h>
@@ -43,6 +44,7 @@ struct Parameters
   ContactParameters                         contact;
   MovingGeometryParameters                  moving;
   TimeParameters                            time;
+  TimeSchemeParameters                      time_scheme;
   NewtonParameters                          newton;
   LinearSolverParameters                    linear_solver;
   OutputParameters<dim>                     output;

@@ -24,6 +24,10 @@ struct BodyParameters
   std::string          material;
   ShapeParameters<dim> shape;
   std::string          body_force = dim == 2 ? "0; 0" : "0; 0; 0";
+  double               density    = 0.;                            //!< of the material [mass/L^dim]
+  std::string          gravity    = dim == 2 ? "0; 0" : "0; 0; 0"; //!< of all bodies [L/time^2]
+  std::string          initial_velocity = dim == 2 ? "0; 0" : "0; 0; 0";
+  std::vector<double>  initial_spin; //!< about its centre of mass [rad/time]; empty: none
   /** Named boundary conditions with their section paths. */
   std::vector<std::pair<std::string, BoundaryConditionParameters<dim>>> conditions;
   MotionParameters<dim>                                                 motion; //!< of a rigid body
@@ -33,8 +37,9 @@ struct BodyParameters
 
 /** Reads section Bodies: `set Names = ...` and one subsection per name. */
 template <int dim>
-std::vector<BodyParameters<dim>> declare_bodies(ParameterSection               &section,
-                                                const std::vector<std::string> &material_names);
+std::vector<BodyParameters<dim>>
+declare_bodies(ParameterSection                                &section,
+               const std::map<std::string, MaterialParameters> &materials);
 
 /**
  * What a body is, the same throughout a run: its material and what acts on it. A rigid body has no
@@ -49,6 +54,10 @@ struct BodyDefinition
   std::shared_ptr<const RigidBody<dim>> rigid;      //!< null: the body is deformable
   Expression<dim>                       body_force; //!< force per volume
   std::vector<BoundaryCondition<dim>>   conditions;
+  double                                density = 0.;     //!< [mass/L^dim]
+  Expression<dim>                       gravity;          //!< formulas of t [L/time^2]
+  Expression<dim>                       initial_velocity; //!< at t = 0 [L/time]
+  dealii::Tensor<1, 3>                  initial_spin;     //!< about its centre [rad/time]
   /** The law of moving geometry; null if the geometry stays or the body is rigid. */
   std::shared_ptr<const IncrementLaw<dim>> law = nullptr;
   /** The level set at the start of a run with moving geometry; null for rigid bodies. */
@@ -57,6 +66,12 @@ struct BodyDefinition
   bool is_rigid() const
   {
     return rigid != nullptr;
+  }
+
+  /** Force per volume by gravity [force/L^dim]. */
+  dealii::Tensor<1, dim> weight(const double time) const
+  {
+    return density * gravity.vector(dealii::Point<dim>(), time);
   }
 };
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <scree/base/expression.h>
-#include <scree/geometry/shape.h>
-#include <scree/level_set/lattice.h>
+#include <scree/geometry/shape_moments.h>
 #include <scree/parameters/section.h>
 
 #include <array>
@@ -45,15 +44,19 @@ public:
    * @param box     of the shape; its centre is the default of the reference point
    * @param picture coarse level set of the whole body
    * @param shape   at the initial position
+   * @param density mass per volume, not negative
    */
   RigidBody(const MotionParameters<dim> &parameters, const dealii::BoundingBox<dim> &box,
-            const Lattice<dim> &picture, const std::shared_ptr<const Shape<dim>> &shape);
+            const Lattice<dim> &picture, const std::shared_ptr<const Shape<dim>> &shape,
+            const double density = 0.);
 
   dealii::Point<dim>       reference_point;
   double                   radius;  //!< half the largest edge of its box [L], scales the rotations
   dealii::BoundingBox<dim> box;     //!< of the whole body
   Lattice<dim>             picture; //!< coarse level set of the whole body, for output
-  std::shared_ptr<const Shape<dim>> shape; //!< at the initial position
+  std::shared_ptr<const Shape<dim>> shape;   //!< at the initial position
+  double                            density; //!< [mass/L^dim]
+  ShapeMoments<dim> moments; //!< at the initial position; not computed without density
 
   /** Whether the motion of a component is unknown, its force or moment given. */
   bool is_free(const unsigned int component) const
@@ -95,6 +98,9 @@ public:
   RigidPose();
 
   RigidPose(const RigidBody<dim> &body, const Unknowns &q);
+
+  /** The q of the same pose with |theta| <= pi, of free rotations in 3D; else q. */
+  static Unknowns unwound(const RigidBody<dim> &body, const Unknowns &q);
 
   /** q = (U, L theta) [L]. */
   const Unknowns &unknowns() const

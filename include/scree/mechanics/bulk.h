@@ -3,6 +3,7 @@
 #include <scree/discretization/cut_quadrature.h>
 #include <scree/discretization/small_cut_treatment.h>
 #include <scree/mechanics/cell_rule.h>
+#include <scree/mechanics/mass_points.h>
 #include <scree/mechanics/projected_divergence.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -72,6 +73,12 @@ public:
    * boundary: see strip_widths. */
   void add_body_forces(Vector &loads, const double time) const;
 
+  /** The same of their weight. */
+  void add_weight(Vector &loads, const double time) const;
+
+  /** The mass of the bodies up to their boundaries, at the points of body forces. */
+  MassPoints<dim> mass_points() const;
+
   /** Whether the volume change of a body is projected. */
   bool is_projected(const unsigned int body) const
   {
@@ -126,6 +133,14 @@ protected:
   std::vector<double>            secant_ratios; //!< of active cells; 1 unless set
 
 private:
+  /** Calls f(unit point, reference volume) for the points of an owned active cell and of the strip
+   * between its cut and the body's boundary. */
+  template <typename F>
+  void for_each_volume(const unsigned int active_cell, const F &f) const;
+  /** Adds int b . v of forces per reference volume b(active cell, unit point) of the bodies with
+   * acts(body). */
+  template <typename Acts, typename F>
+  void add_volume_forces(const Acts &acts, const F &b, Vector &loads) const;
   /** @throws UserError where it is not finite */
   dealii::Tensor<1, dim> body_force(const unsigned int        active_cell,
                                     const dealii::Point<dim> &unit_point, const double time) const;

@@ -17,6 +17,7 @@ struct ProblemParameters
   const EnforcementParameters    &enforcement;
   const MovingGeometryParameters &moving;
   const LinearSolverParameters   &linear_solver;
+  bool                            has_inertia = false;
 };
 
 /**
@@ -84,6 +85,7 @@ public:
   const std::unique_ptr<const SmallCutTreatment<dim>> small_cuts;
   const std::unique_ptr<const Kinematics<dim>>        kinematics;
   const Bulk<dim>                                    &bulk; //!< of the kinematics
+  const std::shared_ptr<const Mass<dim>>              mass; //!< null without inertia
   const BoundaryTerms<dim>                            boundary_terms;
 
 private:

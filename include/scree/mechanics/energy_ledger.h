@@ -24,6 +24,7 @@ struct EvaluatedState
   const Vector       &dead_loads;
   const Vector       &contact_forces;
   Vector driving; //!< applied forces on rigid bodies and reactions of what is prescribed
+  double kinetic_energy = 0.;
 };
 
 /**
@@ -65,6 +66,17 @@ public:
 
   /** Takes what the accepted state stores as external work: bodies that overlap were assembled. */
   void count_overlap();
+
+  /** With inertia, where loads act from the beginning: takes all that the accepted state of
+   * resume() stores as external work. */
+  void start_motion(const EvaluatedState<dim> &state);
+
+  /**
+   * After start_step(), with inertia: goes on from these energies. What the fitted state stores in
+   * contact is no measure of what the step gets of it, for bodies pass many contact points; what
+   * the motion of the geometry changed is left in the error of the balance.
+   */
+  void start_without_transfer(const Energies &energies);
 
   const Energies &energies() const
   {

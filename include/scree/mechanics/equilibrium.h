@@ -33,9 +33,10 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
+  /** @param mass of runs with inertia, which holds the bodies that nothing else does; else null */
   Equilibrium(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
               const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
-              ContactPoints<dim> &contact);
+              ContactPoints<dim> &contact, const std::shared_ptr<const Mass<dim>> &mass = nullptr);
 
   /**
    * Starts a step with equations of its own at the state `u` of time `time`: zero but for rigid
@@ -51,10 +52,7 @@ public:
                   const Energies &energies, const DrivingForces<dim> *driving);
 
   /** What drives bodies at the accepted state (collective). */
-  DrivingForces<dim> driving_forces() const
-  {
-    return ledger.driving_forces();
-  }
+  DrivingForces<dim> driving_forces() const;
 
   /** Goes on after the accepted state `u` of these equations, with its time, history, energies. */
   void resume(const double time, const Vector &u, const ContactHistory<dim> &history,
@@ -73,8 +71,21 @@ public:
   /** accept(); what that adds to the error of the balance of energies is transfer. */
   void accept_as_transfer(const Vector &u, const ContactHistory<dim> &old_history);
 
-  void set_inertia(Inertia of_step); //!< none by default
+  void set_inertia(Inertia<dim> of_step); //!< none by default
   bool has_inertia() const;
+
+  /** Sets the kinetic energy of the state that start_step(), resume() or accept() takes. */
+  void set_kinetic_energy(const double energy);
+
+  /** r(u) of the last residual() without inertia and contact. */
+  Vector forces_without_inertia() const;
+
+  /** M^-1 times the contact forces there, of rigid bodies as in RigidMasses::write(). */
+  Vector accelerations_by_contact(const Vector &u) const;
+
+  /** With inertia: starts a run at `u`, where loads act from the beginning; all that the bodies
+   * have there is external work. */
+  void start_motion(const double time, const Vector &u, const ContactHistory<dim> &history);
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
@@ -89,10 +100,7 @@ public:
   Condensation condensation(const bool only_closed);
 
   /** E at the last residual(), blocks of dim x dim. */
-  std::vector<double> tangent_changes() const
-  {
-    return contact.tangent_changes();
-  }
+  std::vector<double> tangent_changes() const;
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
@@ -118,15 +126,9 @@ public:
   std::vector<Vector> rigid_motions() const;
 
   /** Bodies that supports alone do not hold. */
-  const std::vector<FreeMotion> &free_bodies() const
-  {
-    return free.motions();
-  }
+  const std::vector<FreeMotion> &free_bodies() const;
   /** What supports and the contact of the last residual() leave to them. */
-  const FreeBodies<dim> &free_motions() const
-  {
-    return free;
-  }
+  const FreeBodies<dim> &free_motions() const;
   /**
    * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
    * their loads, of that of all |f_b| over a cell; empty: they stay.
@@ -154,18 +156,11 @@ public:
    * of geometry: 1e-4 of FreeBodies::misplaced_moments() (collective). */
   bool is_geometric(const Vector &r, const double tolerance) const;
   /** Whether tangents change by contact, and rigid bodies, alone. */
-  bool is_linear_elsewhere() const
-  {
-    return bulk.is_linear() && boundary_terms.is_linear();
-  }
-  const RigidBodies<dim> &rigid_bodies() const
-  {
-    return rigid;
-  }
-  const StrongSupports<dim> &strong_supports() const
-  {
-    return supports;
-  }
+  bool                    is_linear_elsewhere() const;
+  const RigidBodies<dim> &rigid_bodies() const;
+  /** RigidBodies::states() of the last residual(), inertia included (collective). */
+  std::vector<RigidBodyState<dim>> rigid_states(const Vector &ghosted_u) const;
+  const StrongSupports<dim>       &strong_supports() const;
 
   /** Largest |u| at the nodes of each body (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
@@ -187,22 +182,25 @@ public:
   void accept(const Vector &u, const ContactHistory<dim> &old_history);
 
   /** Energies of the accepted state. */
-  const Energies &energies() const
-  {
-    return ledger.energies();
-  }
+  const Energies &energies() const;
 
   const Kinematics<dim> &kinematics;
+  /** Of runs with inertia, else null. */
+  const std::shared_ptr<const Mass<dim>> mass;
 
 private:
-  void                                  set_up_matrices();
+  void set_up_matrices();
+  /** Adds body forces and weight of deformable bodies. */
+  void                                  add_volume_forces(Vector &forces) const;
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
   void                                  set_up_artificial_mass();
   bool                                  turns_infinitesimally() const;
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void hold_moments(Vector &r);
   void set_zero_on_prescribed(Vector &r) const;
-  void start_tangent(); //!< K = A + c M
+  /** The same on hanging nodes. */
+  void set_zero_where_not_sought(Vector &r) const;
+  void start_tangent(); //!< K = A + c M, with the inertia of rigid bodies
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
   void reactions(Vector &result) const;
@@ -229,7 +227,7 @@ private:
   Vector              internal_forces; //!< A u of the last residual()
   Vector              contact_forces;  //!< -R_contact of the last residual()
   Vector              applied_forces;  //!< on rigid bodies at the last residual()
-  Inertia             inertia;         //!< of the step
+  Inertia<dim>        inertia;         //!< of the step
   Vector              inertia_forces;  //!< h - c M u of the last residual()
   Vector              artificial_mass; //!< of free bodies on the diagonal, of factor 1
   Vector              ghosted;         //!< u of the last residual() with ghosts
@@ -238,6 +236,7 @@ private:
   double              time              = 0.;
   bool                is_driven         = true; //!< forces act on rigid bodies
   double              drag              = 0.;
+  double              kinetic_energy    = 0.;
   double              mass_factor       = default_mass_factor;
   bool                is_second_attempt = false;
   bool                are_moments_whole = false;         //!< held moments, not scaled down
@@ -246,5 +245,6 @@ private:
   Vector              diagonal;                          //!< of A
   Vector              scratch;                           //!< for one function at a time
   double              stiffness_times_displacement = 0.; //!< |diagonal u| of the last residual()
+  double              inertia_terms                = 0.; //!< Inertia::size_of_terms()
 };
 } // namespace scree

@@ -66,6 +66,9 @@ public:
   double arm_error(const double largest_displacement) const override;
 
   /** By the extended increments of the last step. */
+  /** The material points. */
+  MassPoints<dim> mass_points() const override;
+
   Vector extrapolated(const State<dim> &state, const double time) const override;
 
   MaterialPoints<dim> moved(const MaterialPoints<dim> &before,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <scree/discretization/point_evaluator.h>
+#include <scree/mechanics/mass_points.h>
 #include <scree/points/material_points.h>
 #include <scree/points/moving_least_squares.h>
 #include <scree/state/state.h>
@@ -108,6 +108,9 @@ public:
 
   /** How far forces may act from where they are in balance, by a displacement of that size [L]. */
   virtual double arm_error(const double largest_displacement) const = 0;
+
+  /** Where the mass of deformable bodies is. */
+  virtual MassPoints<dim> mass_points() const = 0;
 
   // From step to step.
 

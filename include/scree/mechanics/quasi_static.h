@@ -14,9 +14,10 @@ public:
 
   std::optional<Vector> predicted(const Kinematics<dim> &kinematics, const State<dim> &state,
                                   const double time) const override;
-  Inertia               inertia(const Kinematics<dim> &kinematics, const State<dim> &state,
-                                const double time) const override;
+  Inertia<dim> inertia(const std::shared_ptr<const Mass<dim>> &mass, const State<dim> &state,
+                       const double time) const override;
   /** Without an acceleration. */
-  Rates rates(const State<dim> &state, const Vector &u, const double time) const override;
+  Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
+              const Vector &by_contact, const double time) const override;
 };
 } // namespace scree

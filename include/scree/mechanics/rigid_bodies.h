@@ -74,6 +74,10 @@ public:
   /** All rigid bodies at the ghosted `u`, with the contact of the last evaluation (collective). */
   std::vector<RigidBodyState<dim>> states(const Vector &u) const;
 
+  /** Force and moment, about the current reference point, that are given for free components. */
+  std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, 3>> applied_load(const unsigned int body,
+                                                                       const double time) const;
+
 private:
   /** Calls `f(body, component, unknown)` for all components that this process owns. */
   template <typename Function>
@@ -84,7 +88,8 @@ private:
         if (space.owned().is_element(space.rigid_unknown(b) + m))
           f(*bodies[b].rigid, m, space.rigid_unknown(b) + m);
   }
-  dealii::Tensor<1, 3> applied_moment(const unsigned int body, const double time) const;
+  typename RigidPose<dim>::Load weight(const unsigned int body, const double time) const;
+  dealii::Tensor<1, 3>          applied_moment(const unsigned int body, const double time) const;
 
   const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;

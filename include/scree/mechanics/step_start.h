@@ -64,7 +64,13 @@ public:
   /** The history of an own material point, whose internal variables are known there. */
   PointHistory<dim> history_of_material_point(const std::size_t point) const;
 
-  /** The own material points in their cells. */
+  /** The own material points. */
+  const MaterialPoints<dim> &points() const
+  {
+    return own_points;
+  }
+
+  /** Where they are in their cells. */
   const std::vector<PointInCell<dim>> &material_points() const
   {
     return locations;

@@ -2,21 +2,19 @@
 
 #include <scree/mechanics/inertia.h>
 #include <scree/mechanics/kinematics.h>
+#include <scree/mechanics/time_scheme_parameters.h>
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace scree
 {
 /**
  * How the equations are integrated in time. A step to t_{n+1} solves r(u) - M a = 0, where the
- * scheme says what the acceleration a is of the unknown u. In Newmark's method, for instance,
- *
- *     a = (u - u_p)/(beta dt^2),      u_p = u_n + dt v_n + dt^2/2 (1 - 2 beta) a_n,
- *     v = v_n + dt ((1 - gamma) a_n + gamma a),
- *
- * so that predicted() is u_p, inertia() has the factor 1/(beta dt^2) of M and the forces
- * M u_p/(beta dt^2), rates() are v and a. The equations know the Inertia, not the scheme.
+ * scheme says what the acceleration a is of the unknown u. The equations know the Inertia, not the
+ * scheme. State::predictor has the rates at the start of the step.
  */
 template <int dim>
 class TimeScheme
@@ -30,15 +28,24 @@ public:
   virtual std::optional<Vector> predicted(const Kinematics<dim> &kinematics,
                                           const State<dim> &state, const double time) const = 0;
 
-  /** What enters the equations of the step to `time`. */
-  virtual Inertia inertia(const Kinematics<dim> &kinematics, const State<dim> &state,
-                          const double time) const = 0;
+  /** What enters the equations of the step to `time`. @param mass null without inertia */
+  virtual Inertia<dim> inertia(const std::shared_ptr<const Mass<dim>> &mass,
+                               const State<dim> &state, const double time) const = 0;
 
-  /** Velocity and acceleration at the end of a step to `time`, where the displacement is u. */
-  virtual Rates rates(const State<dim> &state, const Vector &u, const double time) const = 0;
+  /**
+   * Velocity and acceleration at the end of a step to `time`, where the displacement is u; forces
+   * as at its start.
+   *
+   * @param by_contact accelerations that contact causes there; of no use without inertia
+   */
+  virtual Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
+                      const Vector &by_contact, const double time) const = 0;
 };
+
+/** The names that TimeSchemeParameters::scheme may have. */
+std::vector<std::string> time_scheme_names();
 
 /** The scheme of a run. */
 template <int dim>
-std::unique_ptr<const TimeScheme<dim>> make_time_scheme();
+std::unique_ptr<const TimeScheme<dim>> make_time_scheme(const TimeSchemeParameters &parameters);
 } // namespace scree

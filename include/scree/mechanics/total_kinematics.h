@@ -51,6 +51,9 @@ public:
 
   double arm_error(const double largest_displacement) const override;
 
+  /** At the points of the cut quadrature, and of the strip between the cut and the boundary. */
+  MassPoints<dim> mass_points() const override;
+
   Vector extrapolated(const State<dim> &state, const double time) const override;
 
   /** There are none; points that are given stay. */

@@ -44,6 +44,8 @@ public:
   std::vector<dealii::Tensor<2, dim>>          deformation_gradient; //!< F = dx/dX
   std::vector<dealii::SymmetricTensor<2, dim>> stress;               //!< Cauchy [F/L^2]
   std::vector<dealii::Tensor<1, dim>>          velocity;             //!< [L/T]
+  std::vector<dealii::Tensor<1, dim>>          acceleration;         //!< [L/T^2]
+  std::vector<dealii::Tensor<1, dim>>          forcing;              //!< force per mass [L/T^2]
   std::vector<double>                          internal; //!< n_internal() per point, in a row
   std::vector<unsigned int>                    body;     //!< number of the body
 
@@ -57,8 +59,8 @@ public:
   double spacing(const std::size_t point) const;
 
   /**
-   * Adds an undeformed point of zero stress, velocity and internal variables: X = x, F = I.
-   * `volume`, `spacing` and `mass` are those of the point.
+   * Adds an undeformed point of zero stress, velocity, acceleration and internal variables: X = x,
+   * F = I. `volume`, `spacing` and `mass` are those of the point.
    */
   void add(const dealii::Point<dim> &x, const unsigned int body_number, const double volume,
            const double spacing, const double mass);
@@ -107,6 +109,8 @@ public:
     f(points.deformation_gradient, 1u);
     f(points.stress, 1u);
     f(points.velocity, 1u);
+    f(points.acceleration, 1u);
+    f(points.forcing, 1u);
     f(points.internal, points.n_internal_variables);
     f(points.body, 1u);
   }

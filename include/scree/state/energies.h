@@ -9,15 +9,16 @@ struct Energies
   double ghost_penalty = 0.; //!< stored in the ghost penalty
   double boundary      = 0.; //!< stored in springs, Nitsche and penalty terms
   double contact       = 0.; //!< stored in the contact penalties
+  double kinetic       = 0.; //!< of the bodies' motion
   double dissipation   = 0.; //!< by friction, since the start
   double plastic       = 0.; //!< plastic dissipation, since the start
-  double external_work = 0.; //!< by the trapezoidal rule, since the start
+  double external_work = 0.; //!< by the trapezoidal rule, since the start, and kinetic energy there
   double transfer      = 0.; //!< gained where the geometry moved between steps, since the start
 
   /** What a step's start and end can be compared in. */
   double stored() const
   {
-    return strain + ghost_penalty + boundary + contact;
+    return strain + ghost_penalty + boundary + contact + kinetic;
   }
 
   /** external work and transfer minus all that was stored or dissipated */
@@ -29,7 +30,7 @@ struct Energies
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &strain &ghost_penalty &boundary &contact &dissipation &plastic &external_work
+    archive &strain &ghost_penalty &boundary &contact &kinetic &dissipation &plastic &external_work
       &transfer;
   }
 };

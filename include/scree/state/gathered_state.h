@@ -48,12 +48,13 @@ struct GatheredState
   StepEnd<dim>                                   step_end;
   std::vector<ExtendedIncrement<dim>>            increments_of_bodies; //!< of Predictor
   std::vector<typename RigidPose<dim>::Unknowns> increments_of_rigid;
+  std::vector<std::array<typename RigidPose<dim>::Unknowns, 3>> rates_of_rigid;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
     archive &energies &last_step_size &nodes &contact &trailing &points &bodies &step_end
-      &increments_of_bodies &increments_of_rigid;
+      &increments_of_bodies &increments_of_rigid &rates_of_rigid;
   }
 };
 

@@ -4,15 +4,17 @@
 
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <array>
 #include <vector>
 
 namespace scree
 {
-/** Velocity and acceleration of the owned unknowns at the end of a step. */
+/** Velocity, acceleration and forces of the owned unknowns at the end of a step. */
 struct Rates
 {
   dealii::TrilinosWrappers::MPI::Vector velocity;     //!< [L/time]
   dealii::TrilinosWrappers::MPI::Vector acceleration; //!< [L/time^2]; of size 0: there is none
+  dealii::TrilinosWrappers::MPI::Vector forces = {};  //!< r(u) but for inertia; of size 0: none
 };
 
 /** The motion at the end of the last step, from which the next one begins. */
@@ -20,10 +22,12 @@ template <int dim>
 struct Predictor
 {
   double step_size = 0.; //!< of the last step [time]; 0: there is none
-  Rates  rates;          //!< on a fixed geometry
+  Rates  rates;          //!< on a fixed geometry, and of any with inertia
   /** On a moving geometry: of the deformable bodies, else empty. */
   std::vector<ExtendedIncrement<dim>>            of_bodies;
   std::vector<typename RigidPose<dim>::Unknowns> of_rigid; //!< the same of the rigid ones
+  /** With inertia on a moving geometry: the rows of `rates` of rigid bodies. */
+  std::vector<std::array<typename RigidPose<dim>::Unknowns, 3>> rates_of_rigid;
 
   bool is_empty() const
   {
