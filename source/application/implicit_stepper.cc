@@ -235,7 +235,13 @@ ImplicitStepper<dim>::hooks()
     return std::max(equilibrium.force_scale(),
                     equilibrium.round_off() / parameters.newton.relative_tolerance);
   };
-  hooks.freeze = [&](const bool freeze) {
+  hooks.goes_far = [&](const Vector &du) {
+    constexpr double cells = 1.001; // not what was shortened
+    return !equilibrium.free_bodies().empty()
+           && du.linfty_norm() > cells * problem.grid.finest_size();
+  };
+  hooks.set_secant_part = [&](const double part) { problem.contact().set_secant_part(part); };
+  hooks.freeze          = [&](const bool freeze) {
     if (freeze)
       problem.contact().laws().freeze(problem.contact().points(), problem.contact().responses());
     else

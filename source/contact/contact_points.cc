@@ -100,6 +100,7 @@ template <int dim>
 void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
+  secant_part       = 0.;
   evaluated         = discretisation.jump_operator.evaluate(u);
   contact_responses = responses_to(all_points, evaluated.jumps, history);
   std::vector<dealii::Tensor<1, dim>> forces;
@@ -113,9 +114,13 @@ template <int dim>
 dealii::Tensor<2, dim>
 ContactPoints<dim>::stiffness(const unsigned int point) const
 {
-  return contact_responses[point].status == ContactStatus::open
-           ? dealii::Tensor<2, dim>()
-           : points()[point].weight * contact_responses[point].tangent;
+  const ContactResponse<dim> &response = contact_responses[point];
+  if (response.status == ContactStatus::open)
+    return {};
+  return points()[point].weight
+         * (secant_part == 0.
+              ? response.tangent
+              : (1. - secant_part) * response.tangent + secant_part * response.secant);
 }
 
 template <int dim>

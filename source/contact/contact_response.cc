@@ -63,6 +63,8 @@ add_friction(const FrictionBound &bound, const ContactMotion<dim> &motion,
     = trial.tangential_stiffness * (f * projection + df_by_dg * outer_product(motion.slide, n));
   const double length  = trial.tau.norm();
   response.closed_part = f;
+  response.secant += std::min(1., length == 0. ? 1. : bound.value / length)
+                     * trial.tangential_stiffness * f * projection;
   if (length <= bound.value)
     {
       response.status       = ContactStatus::stick;
@@ -99,7 +101,8 @@ respond(const FrictionBound *bound, const ContactMotion<dim> &motion,
   response.status = bound ? ContactStatus::stick : ContactStatus::slip;
   if (bound && touches)
     response.tangent += trial.tangential_stiffness * tangential_projection(n);
-  else if (bound)
+  response.secant = response.tangent;
+  if (bound && !touches)
     add_friction(*bound, motion, trial, response);
 }
 } // namespace

@@ -35,6 +35,10 @@ constexpr double       mass_growth          = 4;
 constexpr double       short_step           = 0.01;
 constexpr unsigned int max_short_steps      = 3;
 constexpr double       largest_mass         = 10;
+constexpr double       first_secant_part    = 0.25;
+constexpr double       least_secant_part    = 1e-2;
+constexpr double       secant_growth        = 4;
+constexpr double       secant_decay         = 0.5;
 constexpr double       energy_overshoot     = 0.5;
 constexpr double       energy_reduction     = 0.1;
 constexpr unsigned int max_energy_trials    = 16;
@@ -133,6 +137,7 @@ struct Newton::Progress
   bool         is_later     = false; //!< in a round
   LineSearch   line_search;
   double       mass          = 0.; //!< s
+  double       secant_part   = 0.; //!< of friction
   unsigned int iterations    = 0;  //!< before this method
   unsigned int n_short_steps = 0;  //!< in a row
 
@@ -143,6 +148,31 @@ struct Newton::Progress
       mass = std::max(is_transient ? smallest_mass : smallest_later_mass, mass_decay * mass);
     else if (alpha < 0.2)
       mass = std::min(largest_mass, mass_growth * mass);
+  }
+
+  /** Starts the method anew. */
+  void begin()
+  {
+    n_short_steps = 0;
+    secant_part   = 0.;
+  }
+
+  /**
+   * Counts short steps and chooses the part of the secant of friction.
+   * @param ratio  of the residuals after and before the step
+   * @param is_far whether a body would go far in the whole step
+   */
+  void end_step(const double alpha, const double ratio, const bool is_far)
+  {
+    n_short_steps = alpha < short_step ? n_short_steps + 1 : 0;
+    if (is_transient)
+      return;
+    if (alpha < 0.5 && (is_far || secant_part > 0.))
+      secant_part = std::clamp(secant_growth * secant_part, first_secant_part, 1.);
+    else
+      secant_part *= std::min(secant_decay, ratio);
+    if (secant_part < least_secant_part)
+      secant_part = 0.;
   }
 };
 
@@ -357,7 +387,7 @@ Newton::iterate(Vector &u, Progress &progress) const
   iteration.number = progress.iterations;
   Vector r(u), du(u);
   double linear_tolerance = parameters.loosest_linear_tolerance;
-  progress.n_short_steps  = 0;
+  progress.begin();
   hooks.residual(u, r);
   balance(u, r);
   iteration.residual = r.l2_norm();
@@ -386,6 +416,8 @@ Newton::iterate(Vector &u, Progress &progress) const
         {
           if (progress.is_later)
             hooks.set_mass(progress.mass);
+          if (hooks.set_secant_part)
+            hooks.set_secant_part(progress.secant_part);
           hooks.solve(u, r, linear_tolerance, du);
         }
       catch (const LinearSolverFailure &failure)
@@ -401,10 +433,11 @@ Newton::iterate(Vector &u, Progress &progress) const
                           : search(u, du, r, iteration.residual, progress.line_search);
       if (progress.is_later && !progress.is_transient)
         progress.adapt(step.alpha);
-      u                           = step.u;
-      r                           = step.r;
-      iteration.residual          = balance(u, r) ? r.l2_norm() : step.norm;
-      progress.n_short_steps      = step.alpha < short_step ? progress.n_short_steps + 1 : 0;
+      u                  = step.u;
+      r                  = step.r;
+      iteration.residual = balance(u, r) ? r.l2_norm() : step.norm;
+      progress.end_step(step.alpha, iteration.residual / result.residuals.back(),
+                        hooks.goes_far && hooks.goes_far(du));
       iteration.step_length       = step.alpha;
       iteration.increment         = step.alpha * du.l2_norm();
       iteration.extra_evaluations = step.evaluations - 1;

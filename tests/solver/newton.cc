@@ -148,6 +148,34 @@ TEST(Newton, LineSearchEndsACycle)
     }
 }
 
+TEST(Newton, ShortStepsBringTheSecantOfFriction)
+{
+  // A force 0.3 pushes what the tangent does not resist, towards a spring that begins at u = 1.
+  constexpr double    force = 0.3, weak = 1e-6;
+  std::vector<double> parts, lengths;
+  Newton::Hooks       hooks;
+  const auto          pressed = [](const Vector &u) { return std::max(0., u(0) - 1.); };
+  hooks.residual              = [&](const Vector &u, Vector &r) { r(0) = force - pressed(u); };
+  hooks.solve                 = [&](const Vector &u, const Vector &r, double, Vector &du) {
+    const double tangent = pressed(u) > 0. ? 1. : weak;
+    du(0)                = r(0) / ((1. - parts.back()) * tangent + parts.back());
+  };
+  hooks.reference       = []() { return 1.; };
+  hooks.goes_far        = [](const Vector &du) { return du.linfty_norm() > 10.; };
+  hooks.set_secant_part = [&](const double part) { parts.push_back(part); };
+  hooks.observe         = [&](const NewtonIteration &step) { lengths.push_back(step.step_length); };
+  Vector             u  = vector({0.});
+  const NewtonResult result = Newton(with(LineSearch::residual), hooks).solve(u);
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_NEAR(u(0), 1. + force, 1e-8);
+  EXPECT_LE(result.iterations, 8u);
+  EXPECT_EQ(parts[0], 0.);
+  EXPECT_EQ(parts[1], 0.25);
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (lengths[i] >= 0.5)
+      EXPECT_LE(parts[i], 0.5 * parts[i - 1]);
+}
+
 TEST(Newton, StepsToUndefinedResidualsAreHalved)
 {
   // log(u) is not a number at the end of the first step, u = 5 - 5 log 5 < 0.

@@ -119,6 +119,12 @@ struct NewtonResult
  * falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most (Matthies, Strang, Int. J. Numer.
  * Meth. Engng 14, 1979, 1613-1626). In all cases a step to a residual that is not finite is halved.
  *
+ * *Secants of friction:* the tangent of what slides does not resist it and sends single bodies far
+ * beyond where they find hold, and a search shortens the step of all. After a step of alpha < 1/2
+ * in which a body would have gone far that tangent becomes (1 - s) tangent + s secant, s = 1/4,
+ * four times as much, at most 1, after each further step of alpha < 1/2. A longer one takes s times
+ * the ratio of the residuals, at most 1/2; below 1/100 it is 0.
+ *
  * *Linear tolerances:* `eta = 0.9 (|r| / |r_before|)^2`, in the first iteration the loosest one
  * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the
  * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
@@ -190,6 +196,12 @@ public:
 
     /** Sets the factor of the artificial mass M in K; empty: there is none. */
     std::function<void(double factor)> set_mass;
+
+    /** Whether du sends what moves freely far; may be empty. */
+    std::function<bool(const Vector &du)> goes_far;
+
+    /** Puts a part of a secant of friction for one of its tangent in the next K; may be empty. */
+    std::function<void(double part)> set_secant_part;
 
     /** Freezes the bounds of friction at those of the last residual(), or lets them go. */
     std::function<void(bool freeze)> freeze;
