@@ -114,8 +114,12 @@ LevelSetNodes<dim>::facing_values(const unsigned int cell, const Body<dim> &body
       }
     return result;
   };
+  // Nodes of cells on the side that is seen lie no farther behind a body of one cell.
+  constexpr double behind = 0.5;
   for (unsigned int i = 0; i < lagrange.n_nodes; ++i)
     {
+      if (values[i] > behind * size)
+        continue;
       const double reach  = std::abs(values[i]) + 1e-9 * size;
       const auto   looks  = [](const Side &side) { return side.faces; };
       const auto   nearby = reach > 3. * size ? std::vector<Side>() : sides_near(i, reach);

@@ -134,6 +134,7 @@ Equilibrium<dim>::balance(const Vector &u) const
   body_forces += inertia_forces;
   body_forces.add(inertia.contact_weight - 1., contact_forces);
   reactions(held);
+  held.add(1. - inertia.contact_weight, contact_forces);
 
   auto sums = node_sums(space, bodies, u, contact_forces, body_forces);
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)

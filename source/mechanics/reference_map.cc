@@ -1,3 +1,4 @@
+#include <scree/base/log.h>
 #include <scree/discretization/face_jumps.h>
 #include <scree/mechanics/reference_map.h>
 
@@ -216,7 +217,9 @@ locate_points(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &po
   for (std::size_t p = 0; p < points.size(); ++p)
     {
       const int cell = space.nearest_active_cell(points.position[p], points.body[p]);
-      AssertThrow(cell >= 0, dealii::ExcMessage("a material point left its body"));
+      AssertThrow(cell >= 0,
+                  dealii::ExcMessage("the material point at " + short_place(points.position[p])
+                                     + " left body " + std::to_string(points.body[p])));
       result.push_back(
         {static_cast<unsigned int>(cell), space.unit_point(cell, points.position[p])});
     }

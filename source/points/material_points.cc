@@ -221,7 +221,15 @@ template <int dim>
 unsigned int
 MaterialPoints<dim>::n_values() const
 {
-  return 3 * dim + 3 + dim * dim + dim * (dim + 1) / 2 + n_internal_variables + 1;
+  unsigned int result = 0;
+  for_each_array(*this, [&](const auto &array, const unsigned int n) {
+    using Value = typename std::decay_t<decltype(array)>::value_type;
+    if constexpr (std::is_same_v<Value, unsigned int>)
+      result += n;
+    else
+      result += n * n_numbers<Value>;
+  });
+  return result;
 }
 
 template <int dim>

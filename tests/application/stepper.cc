@@ -199,7 +199,7 @@ public:
     u = model.state().displacement;
     equilibrium.residual(u, model.state().contact, r);
     equilibrium.accept(u, model.state().contact);
-    model.accept(u, result.record.time, {zero_displacement(model.problem().space), r});
+    model.accept(u, result.record.time, {zero_displacement(model.problem().space), r, r});
     ends.push_back(model.state().time);
     result.outcome = Attempt<2>::Outcome::accepted;
     return result;
@@ -243,7 +243,7 @@ TEST(Stepper, AnotherOneTakesTheStepsOfARun)
   EXPECT_EQ(simulation.get_model().state().displacement.linfty_norm(), 0.);
   // Velocity and acceleration are in the checkpoint.
   const auto checkpoint = Checkpoint<2>::read(directory.path, MPI_COMM_WORLD);
-  EXPECT_EQ(checkpoint.state.nodes.row_size(), 6u);
+  EXPECT_EQ(checkpoint.state.nodes.row_size(), 8u);
   RunLog     run_log{Log(MPI_COMM_WORLD, ""), {}, {}};
   const auto parameters = ModelRun::read(block_on_bed(""));
   Model<2>   again(parameters, 0.25, MPI_COMM_WORLD, run_log);

@@ -38,10 +38,10 @@ TEST(ShapeMoments, Disc)
   const Point<2> centre(0.31, -0.17);
   const double   r = 1.1, area = numbers::PI * r * r;
   const auto     m = moments<2>(Ball<2>(centre, r), 0.05);
-  EXPECT_NEAR(m.volume, area, 2e-5 * area);
+  EXPECT_NEAR(m.volume, area, 5e-5 * area);
   EXPECT_NEAR(m.centre.distance(centre), 0., 1e-5);
-  EXPECT_NEAR(m.second[0][0], 0.25 * area * r * r, 5e-5);
-  EXPECT_NEAR(m.second[1][1], 0.25 * area * r * r, 5e-5);
+  EXPECT_NEAR(m.second[0][0], 0.25 * area * r * r, 1e-4);
+  EXPECT_NEAR(m.second[1][1], 0.25 * area * r * r, 1e-4);
   EXPECT_NEAR(m.second[0][1], 0., 1e-5);
 }
 
@@ -55,8 +55,8 @@ TEST(ShapeMoments, Box)
   EXPECT_NEAR(m.volume, volume, 5e-5 * volume);
   for (unsigned int d = 0; d < 3; ++d)
     {
-      EXPECT_NEAR(m.centre[d], 0.5 * (lower[d] + upper[d]), 1e-5);
-      EXPECT_NEAR(m.second[d][d], volume * std::pow(upper[d] - lower[d], 2) / 12., 1e-4 * volume);
+      EXPECT_NEAR(m.centre[d], 0.5 * (lower[d] + upper[d]), 5e-5);
+      EXPECT_NEAR(m.second[d][d], volume * std::pow(upper[d] - lower[d], 2) / 12., 2e-4 * volume);
       EXPECT_NEAR(m.second[d][(d + 1) % 3], 0., 1e-5);
     }
 }

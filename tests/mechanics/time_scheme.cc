@@ -279,7 +279,7 @@ TEST(Inertia, RigidBodiesTumble)
     const Momentum<3>  start = body.momentum();
     const Tensor<1, 3> spin({1., 2., -1.});
     for (unsigned int d = 0; d < 3; ++d)
-      EXPECT_NEAR(start.angular[d], J[d] * spin[d], 3e-5 * J[d]);
+      EXPECT_NEAR(start.angular[d], J[d] * spin[d], 3e-4 * J[d]);
     const OneStepScheme<3> scheme(trapezoidal());
     for (unsigned int i = 1; i <= n; ++i)
       body.step(scheme, 1. * i / n);

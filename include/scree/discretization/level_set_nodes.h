@@ -27,7 +27,7 @@ public:
   /**
    * The same of a body as another one in the direction `towards` sees it: where the nearest parts
    * of the boundary look away from there, as the far side of a thin body does, the value is that of
-   * the pieces which do not.
+   * the pieces which do not; behind the body, farther than half a cell, nothing is seen.
    */
   void facing_values(const unsigned int cell, const Body<dim> &body,
                      const dealii::Tensor<1, dim> &towards, double *values) const;
