@@ -342,6 +342,9 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
                     const std::string &directory)
 {
   current.time = time;
+  require(saved.has_inertia == (problem().mass != nullptr), directory,
+          std::string("its run is one ") + (saved.has_inertia ? "with" : "without") + " inertia",
+          "leave Time/Scheme as it was; schemes with inertia may take the place of each other");
   if (!is_moving())
     {
       restore_fixed(saved, problem().space, problem().contact(), directory, current);

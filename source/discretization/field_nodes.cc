@@ -50,6 +50,8 @@ template <int dim>
 std::vector<FieldNodes::Constraint>
 hanging_nodes(const dealii::DoFHandler<dim> &dof_handler)
 {
+  if (dof_handler.n_dofs() == 0)
+    return {}; // all bodies are rigid
   dealii::IndexSet relevant;
   dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
   dealii::AffineConstraints<double> constraints(relevant);

@@ -146,7 +146,7 @@ gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
   const MPI_Comm communicator = space.grid.communicator();
   const double   length       = resolution * space.grid.finest_size();
   const auto     origin       = space.grid.box().get_boundary_points().first;
-  const auto     vectors      = vectors_of(state, state.predictor.rates.acceleration.size() > 0);
+  const auto     vectors      = vectors_of(state, result.has_inertia);
   result.nodes                = PlacedValues<dim>(vectors.size() * dim, origin, length);
   for_each_node(space,
                 [&](const unsigned int body, const dealii::Point<dim> &x, const DofIndex first) {
@@ -186,6 +186,7 @@ gather(const State<dim> &state, const DisplacementSpace<dim> &space,
   GatheredState<dim> result;
   result.energies       = state.energies;
   result.last_step_size = state.predictor.step_size;
+  result.has_inertia    = state.predictor.rates.acceleration.size() > 0;
   if (is_moving)
     gather_moving(state, space.grid.communicator(), result);
   else
@@ -199,10 +200,10 @@ restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &spa
               const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
 {
   const unsigned int n_vectors = saved.nodes.row_size() / dim;
-  require_consistent((n_vectors == 2 || n_vectors == 4)
+  require_consistent(n_vectors == (saved.has_inertia ? 4 : 2)
                        && saved.trailing.size() == n_vectors * space.n_trailing(),
                      directory);
-  const auto vectors = vectors_of(state, n_vectors == 4);
+  const auto vectors = vectors_of(state, saved.has_inertia);
   for (auto *vector : vectors)
     *vector = state.displacement;
   for_each_node(space,

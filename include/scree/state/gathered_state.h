@@ -36,6 +36,7 @@ struct GatheredState
 
   Energies energies;
   double   last_step_size = 0.; //!< Predictor::step_size
+  bool     has_inertia    = false;
 
   // On a fixed geometry.
   PlacedValues<dim>   nodes;    //!< by body: displacement and Predictor::rates
@@ -53,8 +54,8 @@ struct GatheredState
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &energies &last_step_size &nodes &contact &trailing &points &bodies &step_end
-      &increments_of_bodies &increments_of_rigid &rates_of_rigid;
+    archive &energies &last_step_size &has_inertia &nodes &contact &trailing &points &bodies
+      &step_end &increments_of_bodies &increments_of_rigid &rates_of_rigid;
   }
 };
 
