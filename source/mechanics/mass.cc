@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/joint_sum.h>
 #include <scree/mechanics/mass.h>
+#include <scree/mechanics/resultant.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -16,19 +17,6 @@ namespace scree
 {
 namespace
 {
-template <int dim>
-dealii::Tensor<1, 3>
-moment_of(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &v)
-{
-  dealii::Tensor<1, 3> arm, vector;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      arm[d]    = x[d];
-      vector[d] = v[d];
-    }
-  return dealii::cross_product_3d(arm, vector);
-}
-
 /** A matrix or a preconditioner on the vectors that are zero where something sets them so. */
 template <typename Operator>
 struct Restricted

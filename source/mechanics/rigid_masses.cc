@@ -1,3 +1,4 @@
+#include <scree/mechanics/resultant.h>
 #include <scree/mechanics/rigid_masses.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -116,8 +117,8 @@ RigidMasses<dim>::OfBody::rates(const RigidPose<dim> &pose, const Vectors &veloc
   for (unsigned int i = 0; i < n_points; ++i)
     {
       arms[i] -= centre;
-      L += dealii::cross_product_3d(in_space<dim>(arms[i]), in_space<dim>(velocities[i]));
-      dL += dealii::cross_product_3d(in_space<dim>(arms[i]), in_space<dim>(accelerations[i]));
+      L += moment_of<dim>(arms[i], velocities[i]);
+      dL += moment_of<dim>(arms[i], accelerations[i]);
     }
   RigidRates<dim> result;
   result.spin = spin_of<dim>(arms, L);
@@ -176,8 +177,7 @@ RigidMasses<dim>::OfBody::momentum(const RigidPose<dim> &pose, const RigidRates<
   for (unsigned int i = 0; i < n_points; ++i)
     {
       result.linear += mass / n_points * v[i];
-      result.angular
-        += mass / n_points * dealii::cross_product_3d(in_space<dim>(x[i]), in_space<dim>(v[i]));
+      result.angular += mass / n_points * moment_of<dim>(x[i], v[i]);
     }
   return result;
 }
