@@ -34,7 +34,7 @@ cut_energy(const ContactPoints<dim> &contact, const ContactHistory<dim> &history
 template <int dim>
 double
 dissipation(const ContactPoints<dim> &contact, const ContactHistory<dim> &history,
-            const MPI_Comm communicator)
+            const double share, const MPI_Comm communicator)
 {
   const ContactHistory<dim> state   = contact.current_history();
   const auto                elastic = contact.enforcement().elastic_slides(history.tau, state.tau);
@@ -46,7 +46,7 @@ dissipation(const ContactPoints<dim> &contact, const ContactHistory<dim> &histor
       slip -= (slip * point.normal) * point.normal;
       slip -= elastic[i];
       const double at_end = -point.weight * (state.tau[i] * slip);
-      const double mean   = 0.5 * (at_end - point.weight * (history.tau[i] * slip));
+      const double mean   = (1. - share) * at_end - share * point.weight * (history.tau[i] * slip);
       dissipated += mean;
       not_negative += mean < 0. ? at_end : mean;
     }
@@ -60,7 +60,7 @@ dissipation(const ContactPoints<dim> &contact, const ContactHistory<dim> &histor
   template double cut_energy(const ContactPoints<dim> &, const ContactHistory<dim> &,  \
                              const MPI_Comm);                                          \
   template double dissipation(const ContactPoints<dim> &, const ContactHistory<dim> &, \
-                              const MPI_Comm);
+                              const double, const MPI_Comm);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

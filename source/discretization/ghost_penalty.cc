@@ -57,24 +57,75 @@ GhostPenalty<dim>::add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) 
 }
 
 template <int dim>
-double
-GhostPenalty<dim>::energy(const CutStiffness &stiffness, const PointEvaluator<dim> &u) const
+std::vector<dealii::Vector<double>>
+GhostPenalty<dim>::carried(const GhostFace &face, const PointEvaluator<dim> &start) const
 {
-  const unsigned int     n      = space.basis.n_nodes;
-  double                 energy = 0.;
-  dealii::Vector<double> nodal(2 * n);
+  const unsigned int n = space.basis.n_nodes;
+  dealii::Point<dim> middle;
+  for (unsigned int d = 0; d < dim; ++d)
+    middle[d] = d == face.face / 2 ? face.face % 2 : 0.5;
+  const auto             x = space.position(face.cell, middle);
+  dealii::Tensor<2, dim> G = dealii::unit_symmetric_tensor<dim>();
+  for (const unsigned int cell : {face.cell, face.neighbor})
+    G -= 0.5 * start.gradient({cell, space.unit_point(cell, x)});
+  const dealii::Tensor<2, dim> R = transpose(project_onto_orthogonal_tensors(G));
+
+  std::vector<dealii::Vector<double>> result(dim, dealii::Vector<double>(2 * n));
+  for (unsigned int i = 0; i < 2 * n; ++i)
+    {
+      const double *u_n
+        = start.nodal_values(i < n ? face.cell : face.neighbor) + (i < n ? i : i - n) * dim;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          result[d](i) += R[d][e] * u_n[e];
+    }
+  return result;
+}
+
+template <int dim>
+void
+GhostPenalty<dim>::add_start_forces(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                                    Vector &forces) const
+{
+  const unsigned int     n = space.basis.n_nodes;
+  dealii::Vector<double> of_component(2 * n), of_face(2 * n * dim);
   for (const GhostFace &face : jumps.faces())
     {
       const auto   matrix = jumps.matrix(face);
+      const auto   u_n    = carried(face, start);
       const double factor = factor_of(face, stiffness);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          matrix.vmult(of_component, u_n[d]);
+          for (unsigned int i = 0; i < 2 * n; ++i)
+            of_face(i * dim + d) = factor * of_component(i);
+        }
+      std::vector<DofIndex> nodes(space.nodes(face.cell), space.nodes(face.cell) + n);
+      nodes.insert(nodes.end(), space.nodes(face.neighbor), space.nodes(face.neighbor) + n);
+      space.hanging_constraints().distribute_local_to_global(
+        of_face, unknowns_of_nodes<dim>(nodes.data(), nodes.size()), forces);
+    }
+}
+
+template <int dim>
+double
+GhostPenalty<dim>::energy(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                          const PointEvaluator<dim> &u) const
+{
+  const unsigned int n      = space.basis.n_nodes;
+  double             energy = 0.;
+  for (const GhostFace &face : jumps.faces())
+    {
+      const auto matrix = jumps.matrix(face);
+      auto       nodal  = carried(face, start);
       for (unsigned int d = 0; d < dim; ++d)
         {
           for (unsigned int i = 0; i < n; ++i)
             {
-              nodal(i)     = u.nodal_values(face.cell)[i * dim + d];
-              nodal(n + i) = u.nodal_values(face.neighbor)[i * dim + d];
+              nodal[d](i) += u.nodal_values(face.cell)[i * dim + d];
+              nodal[d](n + i) += u.nodal_values(face.neighbor)[i * dim + d];
             }
-          energy += 0.5 * factor * matrix.matrix_norm_square(nodal);
+          energy += 0.5 * factor_of(face, stiffness) * matrix.matrix_norm_square(nodal[d]);
         }
     }
   return energy;

@@ -2,7 +2,6 @@
 
 #include <Epetra_BlockMap.h>
 #include <algorithm>
-#include <functional>
 
 namespace scree
 {
@@ -40,18 +39,6 @@ PointEvaluator<dim>::gather(const Vector &u)
       }
   for (unsigned int i = 0; i < trailing.size(); ++i)
     trailing[i] = u(space->n_dofs() - trailing.size() + i);
-}
-
-template <int dim>
-PointEvaluator<dim> &
-PointEvaluator<dim>::operator+=(const PointEvaluator &other)
-{
-  const auto add = [](std::vector<double> &to, const std::vector<double> &from) {
-    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
-  };
-  add(values, other.values);
-  add(trailing, other.trailing);
-  return *this;
 }
 
 template <int dim>

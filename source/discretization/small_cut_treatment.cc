@@ -16,8 +16,16 @@ NoSmallCutTreatment<dim>::add_to_matrix(const CutStiffness &, Matrix &) const
 }
 
 template <int dim>
+void
+NoSmallCutTreatment<dim>::add_start_forces(const CutStiffness &, const PointEvaluator<dim> &,
+                                           Vector &) const
+{
+}
+
+template <int dim>
 double
-NoSmallCutTreatment<dim>::energy(const CutStiffness &, const PointEvaluator<dim> &) const
+NoSmallCutTreatment<dim>::energy(const CutStiffness &, const PointEvaluator<dim> &,
+                                 const PointEvaluator<dim> &) const
 {
   return 0.;
 }

@@ -213,10 +213,18 @@ Bulk<dim>::cut_stiffness() const
 }
 
 template <int dim>
-double
-Bulk<dim>::energy_of_small_cuts(const PointEvaluator<dim> &u) const
+void
+Bulk<dim>::add_start_forces(const PointEvaluator<dim> &start, Vector &forces) const
 {
-  return dealii::Utilities::MPI::sum(small_cuts.energy(cut_stiffness(), u),
+  small_cuts.add_start_forces(cut_stiffness(), start, forces);
+}
+
+template <int dim>
+double
+Bulk<dim>::energy_of_small_cuts(const PointEvaluator<dim> &start,
+                                const PointEvaluator<dim> &u) const
+{
+  return dealii::Utilities::MPI::sum(small_cuts.energy(cut_stiffness(), start, u),
                                      space.grid.communicator());
 }
 

@@ -135,7 +135,8 @@ EnergyLedger<dim>::accept(const EvaluatedState<dim> &state, const ContactHistory
   energies.external_work += 0.5 * (accepted_dead_loads * motion) + work_of_step(state);
   accepted_dead_loads = state.dead_loads;
   set_accepted(state.time, state.u);
-  energies.dissipation += dissipation(contact, old_history, space.grid.communicator());
+  energies.dissipation
+    += dissipation(contact, old_history, state.share_of_old_contact, space.grid.communicator());
   energies.plastic += store_energies(state);
 }
 
@@ -176,7 +177,7 @@ EnergyLedger<dim>::store_energies(const EvaluatedState<dim> &state)
   current_energies.kinetic  = state.kinetic_energy;
   current_energies.boundary = boundary_terms.energy(state.field, state.time);
   current_energies.ghost_penalty
-    = kinematics.bulk().energy_of_small_cuts(kinematics.whole_displacement(state.field));
+    = kinematics.bulk().energy_of_small_cuts(kinematics.start_displacement_field(), state.field);
   return of_bulk.dissipation;
 }
 

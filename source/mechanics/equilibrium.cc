@@ -76,7 +76,11 @@ Equilibrium<dim>::set_up_matrices()
   bulk.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   start_forces.reinit(space.owned(), communicator);
-  stiffness.vmult(start_forces, kinematics.start_displacement());
+  if (bulk.is_linear())
+    stiffness.vmult(start_forces, kinematics.start_displacement());
+  else
+    bulk.add_start_forces(kinematics.start_displacement_field(), start_forces);
+  start_forces.compress(dealii::VectorOperation::add);
   boundary_terms.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
   diagonal.reinit(space.owned(), communicator);

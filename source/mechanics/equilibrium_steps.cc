@@ -85,7 +85,8 @@ Equilibrium<dim>::evaluated(const Vector &u) const
   Vector driving(internal_forces);
   reactions(driving);
   driving += applied_forces;
-  return {time, u, at_points(u), loads, dead_loads, contact_forces, driving, kinetic_energy};
+  return {time,           u,       at_points(u),   loads,          dead_loads,
+          contact_forces, driving, kinetic_energy, mass ? 0. : 0.5};
 }
 
 template <int dim>

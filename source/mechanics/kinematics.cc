@@ -8,15 +8,6 @@ Kinematics<dim>::Kinematics(const double start_time)
 {
 }
 
-template <int dim>
-PointEvaluator<dim>
-Kinematics<dim>::whole_displacement(const PointEvaluator<dim> &u) const
-{
-  PointEvaluator<dim> result = start_displacement_field();
-  result += u;
-  return result;
-}
-
 template class Kinematics<2>;
 template class Kinematics<3>;
 } // namespace scree

@@ -59,19 +59,18 @@ TEST(SmallCutTreatment, EnergyOfGhostPenaltyIsThatOfItsMatrix)
       CutStiffness                stiffness = {{7.}, {}};
       for (unsigned int a = 0; a < space.cells().size(); ++a)
         stiffness.ratios.push_back(1. / (1. + a % 3));
-      const auto   treatment = make_small_cut_treatment(space, 0.1);
-      const auto   matrix    = matrix_of(*treatment, space, stiffness);
-      const auto   u         = waves(space);
-      const double energy    = treatment->energy(stiffness, PointEvaluator<2>(space, u));
+      const auto              treatment = make_small_cut_treatment(space, 0.1);
+      const auto              matrix    = matrix_of(*treatment, space, stiffness);
+      const auto              u         = waves(space);
+      const PointEvaluator<2> rest(space), of_u(space, u);
+      const double            energy = treatment->energy(stiffness, rest, of_u);
       EXPECT_GT(energy, 0.);
       EXPECT_NEAR(energy, 0.5 * matrix.matrix_norm_square(u), 1e-12 * energy);
       // The smaller ratio of two cells counts; factor and stiffness are factors.
-      const double of_twice
-        = GhostPenalty<2>(space, 0.2).energy(stiffness, PointEvaluator<2>(space, u));
+      const double of_twice = GhostPenalty<2>(space, 0.2).energy(stiffness, rest, of_u);
       EXPECT_NEAR(of_twice, 2. * energy, 1e-12 * energy);
       stiffness.of_bodies[0] *= 3.;
-      EXPECT_NEAR(treatment->energy(stiffness, PointEvaluator<2>(space, u)), 3. * energy,
-                  1e-12 * energy);
+      EXPECT_NEAR(treatment->energy(stiffness, rest, of_u), 3. * energy, 1e-12 * energy);
     }
 }
 
@@ -83,6 +82,44 @@ TEST(SmallCutTreatment, NoneAddsNothing)
   const auto                  none      = make_small_cut_treatment(space, 0.);
   EXPECT_TRUE(none->couplings().empty());
   EXPECT_EQ(matrix_of(*none, space, stiffness).frobenius_norm(), 0.);
-  EXPECT_EQ(none->energy(stiffness, PointEvaluator<2>(space, waves(space))), 0.);
+  const PointEvaluator<2> u(space, waves(space));
+  EXPECT_EQ(none->energy(stiffness, u, u), 0.);
+}
+
+// A body that is rough by r after it turned, X = Q^T (x - r), is as good as one that never turned.
+TEST(SmallCutTreatment, GhostPenaltySmoothsWhatHasTurned)
+{
+  for (const unsigned int degree : {1u, 2u})
+    for (const double angle : {0., 0.5, 2., numbers::PI})
+      {
+        const CutBodies<2>          model(graded_ball(degree));
+        const DisplacementSpace<2> &space = *model.space;
+        const CutStiffness    stiffness   = {{7.}, std::vector<double>(space.cells().size(), 1.)};
+        const GhostPenalty<2> treatment(space, 0.1);
+        const double          c = std::cos(angle), s = std::sin(angle);
+        TrilinosWrappers::MPI::Vector rough = waves(space), u_n = waves(space);
+        rough *= 1e-6;
+        space.hanging_constraints().distribute(rough);
+        for (unsigned int a = 0; a < space.cells().size(); ++a)
+          for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+            {
+              const DofIndex     node = space.nodes(a)[i];
+              const Point<2>     x    = space.position(a, space.basis.node(i));
+              const Tensor<1, 2> y{{x[0] - rough(node), x[1] - rough(node + 1)}};
+              u_n(node)     = x[0] - (c * y[0] + s * y[1]);
+              u_n(node + 1) = x[1] - (-s * y[0] + c * y[1]);
+            }
+        const PointEvaluator<2> rest(space), turned(space, u_n), of_rough(space, rough);
+        const double            energy = treatment.energy(stiffness, rest, of_rough);
+        EXPECT_NEAR(treatment.energy(stiffness, turned, rest), energy, 3e-4 * energy);
+
+        TrilinosWrappers::MPI::Vector forces(space.owned(), MPI_COMM_SELF), of_matrix(forces);
+        treatment.add_start_forces(stiffness, turned, forces);
+        forces.compress(VectorOperation::add);
+        matrix_of(treatment, space, stiffness).vmult(of_matrix, rough);
+        const double size = of_matrix.l2_norm();
+        forces -= of_matrix;
+        EXPECT_LE(forces.l2_norm(), 3e-4 * size);
+      }
 }
 } // namespace scree

@@ -18,14 +18,16 @@ double cut_energy(const ContactPoints<dim> &contact, const ContactHistory<dim> &
 
 /**
  * The work of the tangential tractions on the slip in the step from `history` to the last
- * evaluation, by the trapezoidal rule (theory.md section 11):
+ * evaluation (theory.md section 11):
  *
- *     -(tau_n + tau)/2 . d_s,   d_s = P ([[u]] - [[u]]_n) - elastic slide.
+ *     -(share tau_n + (1 - share) tau) . d_s,   d_s = P ([[u]] - [[u]]_n) - elastic slide.
  *
  * Where an old traction would drive the slip this is negative; the traction has turned before. If
  * the sum is negative, points with a negative part count with tau alone. Collective.
+ *
+ * @param share 1/2 by the trapezoidal rule; 0 where the tractions tau act throughout the step
  */
 template <int dim>
 double dissipation(const ContactPoints<dim> &contact, const ContactHistory<dim> &history,
-                   const MPI_Comm communicator);
+                   const double share, const MPI_Comm communicator);
 } // namespace scree

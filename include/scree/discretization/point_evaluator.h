@@ -36,8 +36,6 @@ public:
   /** Takes the values of another ghosted vector. */
   void gather(const Vector &u);
 
-  PointEvaluator &operator+=(const PointEvaluator &other);
-
   /** Whether all values are the same to the last bit; false if some are NaN. */
   bool operator==(const PointEvaluator &other) const;
 

@@ -25,6 +25,7 @@ class SmallCutTreatment
 {
 public:
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
   virtual ~SmallCutTreatment() = default;
 
@@ -34,8 +35,17 @@ public:
   /** Adds its matrix; hanging nodes are condensed. */
   virtual void add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) const = 0;
 
-  /** Energy stored in it on this process, u K u/2 [force L]. */
-  virtual double energy(const CutStiffness &stiffness, const PointEvaluator<dim> &u) const = 0;
+  /**
+   * Adds the forces of what earlier steps left in it, as seen in the present frame.
+   *
+   * @param start u_n, which brought the bodies to where they are
+   */
+  virtual void add_start_forces(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                                Vector &forces) const = 0;
+
+  /** Energy stored in it on this process with the increment u [force L]. */
+  virtual double energy(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                        const PointEvaluator<dim> &u) const = 0;
 };
 
 /** None: for cells that are not cut small, and to see what the others do. */
@@ -44,10 +54,14 @@ class NoSmallCutTreatment : public SmallCutTreatment<dim>
 {
 public:
   using typename SmallCutTreatment<dim>::Matrix;
+  using typename SmallCutTreatment<dim>::Vector;
 
   std::vector<std::vector<DofIndex>> couplings() const override;
   void   add_to_matrix(const CutStiffness &stiffness, Matrix &matrix) const override;
-  double energy(const CutStiffness &stiffness, const PointEvaluator<dim> &u) const override;
+  void   add_start_forces(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                          Vector &forces) const override;
+  double energy(const CutStiffness &stiffness, const PointEvaluator<dim> &start,
+                const PointEvaluator<dim> &u) const override;
 };
 
 /** A GhostPenalty; none if its factor is zero. */

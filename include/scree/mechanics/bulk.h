@@ -106,8 +106,11 @@ public:
   /** Which nodes couple: those of cells, and by the treatment of small cuts. */
   std::vector<std::vector<DofIndex>> couplings() const;
 
-  /** Energy of the treatment of small cuts at the displacement u_n + u, over all processes. */
-  double energy_of_small_cuts(const PointEvaluator<dim> &u) const;
+  /** SmallCutTreatment::add_start_forces(). */
+  void add_start_forces(const PointEvaluator<dim> &start, Vector &forces) const;
+
+  /** Energy of the treatment of small cuts after an increment u, over all processes. */
+  double energy_of_small_cuts(const PointEvaluator<dim> &start, const PointEvaluator<dim> &u) const;
 
   /** Volume of each body by the cut quadrature, summed over the processes. */
   std::vector<double> volumes() const;

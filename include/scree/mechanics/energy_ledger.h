@@ -25,6 +25,7 @@ struct EvaluatedState
   const Vector       &contact_forces;
   Vector driving; //!< applied forces on rigid bodies and reactions of what is prescribed
   double kinetic_energy = 0.;
+  double share_of_old_contact; //!< 1/2, as of other forces; with inertia 0: contact is implicit
 };
 
 /**

@@ -223,7 +223,7 @@ private:
   Matrix              newton_matrix;   //!< K
   Vector              loads;           //!< f
   Vector              dead_loads;      //!< tractions, pressures and body forces in f
-  Vector              start_forces;    //!< of what is linear in the bulk on u_n
+  Vector              start_forces;    //!< of u_n; of a bulk that is not linear by small cuts
   Vector              internal_forces; //!< A u of the last residual()
   Vector              contact_forces;  //!< -R_contact of the last residual()
   Vector              applied_forces;  //!< on rigid bodies at the last residual()

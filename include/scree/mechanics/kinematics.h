@@ -85,9 +85,6 @@ public:
   /** The same at points [L]. */
   virtual PointEvaluator<dim> start_displacement_field() const = 0;
 
-  /** u_n + u [L]. */
-  PointEvaluator<dim> whole_displacement(const PointEvaluator<dim> &u) const;
-
   /** X = x - u_n of a point of a body: formulas are functions of X. */
   virtual dealii::Point<dim> reference_position(const PointInCell<dim> &point) const = 0;
 
