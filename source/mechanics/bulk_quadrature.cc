@@ -13,6 +13,13 @@ BulkQuadrature<dim>::BulkQuadrature(const DisplacementSpace<dim> &space,
 }
 
 template <int dim>
+std::vector<PointHistory<dim>>
+BulkQuadrature<dim>::histories_of_rules(const std::vector<PointInCell<dim>> &points) const
+{
+  return histories(points);
+}
+
+template <int dim>
 void
 BulkQuadrature<dim>::tabulate()
 {
@@ -40,7 +47,7 @@ BulkQuadrature<dim>::tabulate()
               all_gradients.push_back(shape.gradient[i][d]);
         }
     }
-  const auto of_points = histories(points);
+  const auto of_points = histories_of_rules(points);
   all_starts.reserve(points.size());
   all_volume_ratios.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)

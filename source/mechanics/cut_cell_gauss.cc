@@ -34,7 +34,9 @@ MaterialPoints<dim>
 CutCellGauss<dim>::moved(const MaterialPoints<dim> &points, const IncrementalBulk<dim> &bulk,
                          const PointEvaluator<dim> &u) const
 {
-  return moved_points(points, this->bodies, start, bulk, u);
+  return moved_points<dim>(
+    points, start.material_points(),
+    [&](const std::size_t p) { return start.history_of_material_point(p); }, this->bodies, bulk, u);
 }
 
 template class CutCellGauss<2>;

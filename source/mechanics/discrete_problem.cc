@@ -3,6 +3,7 @@
 #include <scree/mechanics/cut_cell_gauss.h>
 #include <scree/mechanics/discrete_problem.h>
 #include <scree/mechanics/incremental_kinematics.h>
+#include <scree/mechanics/material_point_quadrature.h>
 #include <scree/mechanics/material_update.h>
 #include <scree/mechanics/total_kinematics.h>
 
@@ -114,7 +115,11 @@ DiscreteProblem<dim>::make_kinematics(State<dim> &state, Timings &timings) const
     });
   auto start = timed(timings, "material points", [&]() { return start_of_step(state); });
   return timed(timings, "history at quadrature points", [&]() {
-    auto points = std::make_unique<CutCellGauss<dim>>(space, quadrature, bodies, *start);
+    std::unique_ptr<const BulkQuadrature<dim>> points;
+    if (parameters.moving.integration == BulkIntegration::cut_cells)
+      points = std::make_unique<CutCellGauss<dim>>(space, quadrature, bodies, *start);
+    else
+      points = std::make_unique<MaterialPointQuadrature<dim>>(space, bodies, *start);
     return std::make_unique<IncrementalKinematics<dim>>(
       space, quadrature, bodies, *small_cuts, std::move(start), std::move(points), state.time);
   });

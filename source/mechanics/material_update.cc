@@ -43,8 +43,9 @@ distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParam
 
 template <int dim>
 MaterialPoints<dim>
-moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>> &bodies,
-             const StepStart<dim> &step_start, const IncrementalBulk<dim> &bulk,
+moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCell<dim>> &places,
+             const std::function<PointHistory<dim>(std::size_t)> &history_of,
+             const std::vector<Body<dim>> &bodies, const IncrementalBulk<dim> &bulk,
              const PointEvaluator<dim> &u)
 {
   MaterialPoints<dim>                 points  = old_points;
@@ -53,14 +54,14 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
   std::vector<dealii::Tensor<2, dim>> gradients(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
     {
-      const PointInCell<dim> &location = step_start.material_points()[p];
+      const PointInCell<dim> &location = places[p];
       const auto              cell     = location.active_cell;
       const auto              here     = u.evaluate(location);
       increments[p]                    = here.value;
       gradients[p]                     = here.gradient;
 
       const auto             &law     = *bodies[points.body[p]].law;
-      const PointHistory<dim> history = step_start.history_of_material_point(p);
+      const PointHistory<dim> history = history_of(p);
       const IncrementStart    start   = law.start(history);
       dealii::Tensor<2, dim>  F_D     = gradients[p];
       for (unsigned int d = 0; d < dim; ++d)
@@ -91,7 +92,8 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<Body<dim>>
   template void                distribute_points(const DisplacementSpace<dim> &,                           \
                                                  const MovingGeometryParameters &, MaterialPoints<dim> &); \
   template MaterialPoints<dim> moved_points(                                                               \
-    const MaterialPoints<dim> &, const std::vector<Body<dim>> &, const StepStart<dim> &,                   \
+    const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &,                                    \
+    const std::function<PointHistory<dim>(std::size_t)> &, const std::vector<Body<dim>> &,                 \
     const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)

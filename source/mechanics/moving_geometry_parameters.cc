@@ -8,6 +8,9 @@ MovingGeometryParameters::declare(ParameterSection &section)
   const EnumNames<bool>        updates = {{false, "none"}, {true, "every step"}};
   const EnumNames<PointPlaces> place_names
     = {{PointPlaces::sub_grid, "sub-grid"}, {PointPlaces::quadrature_points, "quadrature points"}};
+  const EnumNames<BulkIntegration> integration_names
+    = {{BulkIntegration::cut_cells, "cut cells"},
+       {BulkIntegration::material_points, "material points"}};
   const EnumNames<DeformationTransfer> deformation_names
     = {{DeformationTransfer::reference_map, "reference map"},
        {DeformationTransfer::moving_least_squares, "moving least squares"}};
@@ -25,6 +28,11 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "points of the body.");
   section.entry("Points per direction", points_per_direction, dealii::Patterns::Integer(0, 10),
                 "Of the sub-grid, m^dim points in a cell; 0: Degree + 1.");
+  section.entry("Bulk integration", integration, integration_names,
+                "Where the laws are integrated. cut cells: at Gauss points, up to the boundary; "
+                "histories come from the material points. material points: at these, with their "
+                "volumes and the F that they carry, as in the material point method: nothing is "
+                "transferred, but cells with few points are integrated badly.");
   section.entry("Deformation gradient", deformation, deformation_names,
                 "At the start of a step. reference map: from the displacement x - X of the points, "
                 "fitted in the finite element space; moving least squares: of the gradients that "
@@ -53,5 +61,13 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "What happens when a deformable body moves out through a face of the background "
                 "box, where its level set is cut off. refused: the run ends. allowed: it goes on, "
                 "and the part outside is lost.");
+  if (integration == BulkIntegration::material_points && !is_moving)
+    section.error("Bulk integration", "there are no material points on a fixed geometry",
+                  "set Update = every step, or integrate in cut cells");
+  else if (integration == BulkIntegration::material_points)
+    section.warning("Bulk integration",
+                    "forces of material points change where these cross cells, which costs "
+                    "stiffness in every step (energy.transfer tells how much)",
+                    "compare with cut cells, or take fewer steps");
 }
 } // namespace scree

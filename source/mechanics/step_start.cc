@@ -371,6 +371,17 @@ StepStart<dim>::history_of_material_point(const std::size_t point) const
   return result;
 }
 
+template <int dim>
+PointHistory<dim>
+StepStart<dim>::carried_history(const std::size_t point) const
+{
+  PointHistory<dim> result;
+  result.deformation_gradient = own_points.deformation_gradient[point];
+  if (own_points.n_internal() > 0)
+    load_internal(&own_points.internal[point * n_internal], result);
+  return result;
+}
+
 #define SCREE_INSTANTIATE(dim)   \
   template class StepStart<dim>; \
   template void store_internal(const IncrementLaw<dim> &, const PointHistory<dim> &, double *);

@@ -1,6 +1,8 @@
 // The bulk of a step in increments on points of another kind.
 #include <gtest/gtest.h>
 
+#include <scree/mechanics/material_point_quadrature.h>
+
 #include <cmath>
 
 #include "started_step.h"
@@ -94,5 +96,64 @@ TEST(BulkQuadrature, PointsMayBeOfAnotherKind)
       EXPECT_NEAR(bulk.work(u).energy, energy, 1e-12 * energy);
       EXPECT_NEAR(bulk.volumes()[0], step.bulk.volumes()[0], 1e-14);
     }
+}
+
+// sum_p V_p f(x_p), each point with the F that it carries; forces are the derivative of the energy.
+TEST(BulkQuadrature, MaterialPointsAreAskedWithWhatTheyCarry)
+{
+  StartedStep<2>     step(grid_text("-1.1, -1.1", "1.1, 1.1", "1, 1", 3) + degree_text(1)
+                            + bodies_text({{"disc", ball_text("0.01, 0.02", 0.9)}}),
+                          "Hencky", wavy);
+  const Tensor<2, 2> F_n({{1.1, 0.1}, {-0.05, 0.9}}), F_D({{1.02, 0.03}, {0.01, 0.99}});
+  for (auto &F : step.points.deformation_gradient)
+    F = F_n;
+  const DisplacementSpace<2>      &space = *step.cut.space;
+  const MaterialPointQuadrature<2> points(space, step.cut.bodies, step.start);
+  const IncrementalBulk<2> bulk(space, step.quadrature, step.cut.bodies, *step.small_cuts, points,
+                                step.start.displacement_field());
+  EXPECT_EQ(points.n_points(), step.points.size());
+
+  auto u = zero_displacement(space);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      {
+        const Tensor<1, 2> x       = space.position(a, space.basis.node(i));
+        const Tensor<1, 2> nodal_u = F_D * x - x;
+        for (unsigned int d = 0; d < 2; ++d)
+          u(space.nodes(a)[i] + d) = nodal_u[d];
+      }
+  u.compress(VectorOperation::insert);
+  double volume = 0., volume_0 = 0.;
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    for (unsigned int q = 0; q < points.rule(a).n_points; ++q)
+      volume += points.rule(a).weights[q];
+  for (const double v : step.points.initial_volume)
+    volume_0 += v;
+  EXPECT_NEAR(volume, determinant(F_n) * volume_0, 1e-13);
+
+  PointHistory<2> history;
+  history.deformation_gradient = F_n;
+  const auto          &law     = *step.cut.bodies[0].law;
+  const IncrementStart start   = law.start(history);
+  IncrementResponse<2> response;
+  law.respond(ArrayView<const Tensor<2, 2>>(&F_D, 1), ArrayView<const IncrementStart>(&start, 1),
+              ArrayView<IncrementResponse<2>>(&response, 1), {});
+  const double energy = bulk.work(step.equilibrium.at_points(u)).energy;
+  EXPECT_NEAR(energy, volume_0 * response.energy, 1e-12 * energy);
+
+  const auto   du   = step.random(1., 3);
+  const double size = 1e-6;
+  double       ends[2];
+  for (const int sign : {-1, 1})
+    {
+      auto there = u;
+      there.add(sign * size, du);
+      ends[(sign + 1) / 2] = bulk.work(step.equilibrium.at_points(there)).energy;
+    }
+  auto forces = zero_displacement(space);
+  bulk.add_internal_forces(step.equilibrium.at_points(u), forces);
+  forces.compress(VectorOperation::add);
+  const double work = forces * du;
+  EXPECT_NEAR((ends[1] - ends[0]) / (2. * size), work, 1e-7 * std::abs(work));
 }
 } // namespace scree

@@ -77,6 +77,10 @@ public:
   }
 
 protected:
+  /** The histories at the points of the rules, cell after cell; histories() unless overridden. */
+  virtual std::vector<PointHistory<dim>>
+  histories_of_rules(const std::vector<PointInCell<dim>> &points) const;
+
   /** Sets up the tables, for constructors (collective). */
   void tabulate();
 

@@ -21,12 +21,20 @@ enum class DeformationTransfer
   moving_least_squares // of the F that the points carry
 };
 
+/** Where the laws of the bulk are integrated. */
+enum class BulkIntegration
+{
+  cut_cells,      // at the Gauss points of cut cells
+  material_points // at the material points, with their volumes
+};
+
 /** Section Moving geometry: whether and how bodies move through the grid. */
 struct MovingGeometryParameters
 {
   bool                is_moving            = false;
   PointPlaces         places               = PointPlaces::sub_grid;
   unsigned int        points_per_direction = 0; //!< of a cell; 0: degree + 1
+  BulkIntegration     integration          = BulkIntegration::cut_cells;
   DeformationTransfer deformation          = DeformationTransfer::reference_map;
   int                 degree_of_fits       = as_displacement; //!< of moving least squares
   double              support              = 1.75;            //!< of moving least squares, in cells
@@ -36,6 +44,7 @@ struct MovingGeometryParameters
   double              largest_slip         = 1.;    //!< of contact in a step, in finest cells
   bool                may_leave_box        = false; //!< whether bodies may be cut off by the box
 
+  /** @throws UserError for material points on a fixed geometry */
   void declare(ParameterSection &section);
 
   /** m of the m^dim points of a cell, with displacements of a degree. */

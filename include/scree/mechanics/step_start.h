@@ -64,6 +64,9 @@ public:
   /** The history of an own material point, whose internal variables are known there. */
   PointHistory<dim> history_of_material_point(const std::size_t point) const;
 
+  /** What an own material point carries itself, F too. */
+  PointHistory<dim> carried_history(const std::size_t point) const;
+
   /** The own material points. */
   const MaterialPoints<dim> &points() const
   {
