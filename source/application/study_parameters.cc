@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 namespace scree
@@ -15,14 +14,6 @@ namespace
 {
 const EnumNames<StudyStrategy> strategy_names
   = {{StudyStrategy::uniform, "uniform"}, {StudyStrategy::adaptive, "adaptive"}};
-
-/** Where the text of entry `key` finds a file: as it is, or next to the parameter file. */
-std::string
-found_file(const ParameterSection &section, const std::string &key, const std::string &file)
-{
-  const auto beside = std::filesystem::path(section.file_of(key)).parent_path() / file;
-  return !std::filesystem::exists(file) && std::filesystem::exists(beside) ? beside.string() : file;
-}
 } // namespace
 
 template <int dim>
@@ -41,9 +32,9 @@ StudyQuantity<dim>::declare(ParameterSection &section)
   section.entry("Reference", reference,
                 "The value to compare with, a formula; for a curve a formula of position x, y, z. "
                 "Empty, and no file: the last cycle.");
-  section.entry("Reference file", file,
-                "CSV file with the curve to compare with, relative to the working directory or to "
-                "the parameter file.");
+  section.file("Reference file", file,
+               "CSV file with the curve to compare with, relative to the working directory or to "
+               "the parameter file.");
   section.entry("Reference columns", file_columns,
                 "The two columns of that file, coordinate and value.");
   section.entry("Along", along, "Coordinate of a curve, a formula of position x, y, z.");
@@ -64,7 +55,7 @@ StudyQuantity<dim>::declare(ParameterSection &section)
   else
     try
       {
-        curve = read_curve(found_file(section, "Reference file", file), file_columns);
+        curve = read_curve(file, file_columns);
       }
     catch (const UserError &error)
       {

@@ -64,6 +64,17 @@ short_number(const double value)
 }
 
 std::string
+listed(const std::vector<std::string> &names)
+{
+  std::string text;
+  for (unsigned int i = 0; i < names.size() && i < most_told; ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() <= most_told
+           ? text
+           : text + " and " + std::to_string(names.size() - most_told) + " more";
+}
+
+std::string
 short_duration(const double seconds)
 {
   const long         whole = std::lround(seconds);

@@ -1,3 +1,4 @@
+#include <scree/base/log.h>
 #include <scree/contact/contact_parameters.h>
 
 #include <algorithm>
@@ -174,10 +175,8 @@ ContactParameters::declare(ParameterSection &section, const std::vector<std::str
         if (std::none_of(body_names.begin(), body_names.end(),
                          [&](const std::string &body) { return fits(pattern, body); }))
           {
-            std::string known;
-            for (const auto &body : body_names)
-              known += (known.empty() ? "" : ", ") + body;
-            subsection.error("Bodies", "no body is called '" + pattern + "'", "bodies: " + known);
+            subsection.error("Bodies", "no body is called '" + pattern + "'",
+                             "bodies: " + listed(body_names));
             all_known = false;
           }
       all_known &= laws.back().bodies.size() == 2;

@@ -24,21 +24,6 @@ resident_memory()
   return short_number(stats.VmRSS / 1024.) + " MB";
 }
 
-/** Bodies or pairs that are told one by one. */
-constexpr unsigned int most_told = 30;
-
-/** "a, b, c", the first of many with their number. */
-std::string
-listed(const std::vector<std::string> &names)
-{
-  std::string text;
-  for (unsigned int i = 0; i < names.size() && i < most_told; ++i)
-    text += (i == 0 ? "" : ", ") + names[i];
-  return names.size() <= most_told
-           ? text
-           : text + " and " + std::to_string(names.size() - most_told) + " more";
-}
-
 /** Numbers of points, as they are printed. */
 struct PointNumbers
 {

@@ -48,7 +48,7 @@ find_unknown(ParameterTree &tree, const ParameterNode &node)
   for (const auto &section : node.sections)
     if (section->order > 0)
       find_unknown(tree, *section);
-    else
+    else if (!section->is_refused)
       {
         const std::string near = did_you_mean(section->name, known_sections);
         if (node.name_keys.empty())

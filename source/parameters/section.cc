@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -245,13 +246,36 @@ ParameterSection::is_set(const std::string &key) const
          && (entry->order == 0 ? !entry->text.empty() : entry->value != entry->default_value);
 }
 
-std::string
-ParameterSection::file_of(const std::string &key) const
+void
+ParameterSection::file(const std::string &key, std::string &path,
+                       const std::string &documentation) const
 {
-  const ParameterEntry *entry = node->find_entry(key);
-  return entry == nullptr || !entry->is_set || entry->position.file == "--set"
-           ? ""
-           : entry->position.file;
+  namespace fs = std::filesystem;
+  entry(key, path, documentation);
+  ParameterEntry &entry = node->get_entry(key);
+  if (path.empty() || tree->is_documentation)
+    return;
+  std::error_code none;
+  const fs::path  beside = fs::path(entry.position.file).parent_path() / path;
+  const bool      is_beside
+    = !fs::exists(path, none) && entry.position.file != "--set" && fs::exists(beside, none);
+  const std::string found = fs::absolute(is_beside ? beside : fs::path(path), none).string();
+  if (none || found.find_first_of("#\n") != std::string::npos || found.back() == '\\')
+    error(key, "the file '" + found + "' cannot be named in a parameter file",
+          "move it to where the path has no '#'");
+  else
+    path = entry.value = fs::path(found).lexically_normal().string();
+}
+
+void
+ParameterSection::refuse(const std::string &name, const std::string &what,
+                         const std::string &remedy) const
+{
+  ParameterNode *section = node->find_section(name);
+  if (section == nullptr)
+    return;
+  section->is_refused = true;
+  error(name, what, remedy);
 }
 
 bool

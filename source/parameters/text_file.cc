@@ -70,8 +70,8 @@ checked_text(const std::string &bytes, const std::string &name)
 }
 
 std::string
-read_text_file(const std::string &path, const std::size_t largest_size, const std::string &where,
-               const std::string &remedy)
+read_bytes(const std::string &path, const std::size_t largest_size, const std::string &where,
+           const std::string &remedy, const std::string &what)
 {
   std::error_code       error;
   const fs::file_status status = fs::status(path, error);
@@ -79,19 +79,26 @@ read_text_file(const std::string &path, const std::size_t largest_size, const st
           "cannot open the file '" + path + "'", remedy);
   require(fs::is_regular_file(status), where,
           "'" + path + "' is no regular file but a pipe or a device",
-          "write the parameters to a file");
+          "write the " + what + " to a file");
   const auto size = fs::file_size(path, error);
   require(!error && size <= largest_size, where,
-          "the file '" + path + "' of " + std::to_string(size / 1000000)
-            + " MB is too large for parameters",
-          "choose the right file; parameters may have " + std::to_string(largest_size / 1000000)
-            + " MB with all included files");
+          "the file '" + path + "' of " + std::to_string(size / 1000000) + " MB is too large for "
+            + what,
+          "choose the right file; " + what + " may have " + std::to_string(largest_size / 1000000)
+            + " MB");
   std::ifstream in(path, std::ios::binary);
   require(in.is_open(), where, "cannot open the file '" + path + "'", remedy);
   std::string bytes(size, '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(size));
   // A special file, for example of /proc, may tell another size than it has.
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  return checked_text(bytes, path);
+  return bytes;
+}
+
+std::string
+read_text_file(const std::string &path, const std::size_t largest_size, const std::string &where,
+               const std::string &remedy, const std::string &what)
+{
+  return checked_text(read_bytes(path, largest_size, where, remedy, what), path);
 }
 } // namespace scree

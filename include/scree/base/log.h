@@ -5,6 +5,7 @@
 #include <fstream>
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace scree
 {
@@ -30,6 +31,12 @@ private:
   bool          is_first, is_terminal, has_bar = false;
   std::ofstream file;
 };
+
+/** Names that are told one by one. */
+constexpr unsigned int most_told = 30;
+
+/** "a, b, c", the first of many with the number of the others. */
+std::string listed(const std::vector<std::string> &names);
 
 /** A number in few characters: 4 significant digits. */
 std::string short_number(const double value);

@@ -63,6 +63,16 @@ public:
                      const std::vector<std::string> &allowed,
                      const std::string              &documentation) const;
 
+  /**
+   * Declares `key` as the name of a file: as it is, or beside the parameter file where only there
+   * is one. It becomes absolute, so that a file that is written back finds it too.
+   */
+  void file(const std::string &key, std::string &path, const std::string &documentation) const;
+
+  /** Records the subsection `name` as a problem if the user wrote it; what stands there is not
+   * read. */
+  void refuse(const std::string &name, const std::string &what, const std::string &remedy) const;
+
   /** Declares the subsection `name` and returns it, whether or not the user wrote it. */
   ParameterSection subsection(const std::string &name, const std::string &documentation) const;
 
@@ -92,9 +102,6 @@ public:
    * resolved file, which contains every entry, then gives the same answers).
    */
   bool is_set(const std::string &key) const;
-
-  /** The file that sets the entry `key`; empty if none does or the command line does. */
-  std::string file_of(const std::string &key) const;
 
   /**
    * Whether the visit only collects documentation: alternatives of which a run visits one should

@@ -60,6 +60,9 @@ struct ParameterNode
   unsigned int order = 0;
   std::string  documentation;
 
+  /** What stands here is not read, which was told. */
+  bool is_refused = false;
+
   /** The keys that list names of subsections here, and the names listed. */
   std::vector<std::string> name_keys;
   std::vector<std::string> listed_names;

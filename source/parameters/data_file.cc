@@ -1,0 +1,55 @@
+#include <scree/base/exceptions.h>
+#include <scree/parameters/data_file.h>
+#include <scree/parameters/text_file.h>
+
+#include <boost/crc.hpp>
+#include <iomanip>
+#include <sstream>
+
+namespace scree
+{
+namespace
+{
+/** CRC-32 in hexadecimal digits. */
+std::string
+checksum_of(const std::string &bytes)
+{
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  std::ostringstream text;
+  text << std::hex << std::setw(8) << std::setfill('0') << crc.checksum();
+  return text.str();
+}
+} // namespace
+
+std::string
+read_data_file(const ParameterSection &section, const std::string &key, std::string &path,
+               const std::size_t largest_size, const std::string &what,
+               const std::string &documentation)
+{
+  section.file(key, path, documentation);
+  std::string bytes;
+  if (path.empty())
+    section.error(key, "is needed", "name a file of " + what);
+  else
+    try
+      {
+        bytes = read_bytes(path, largest_size, path, "check the path", what);
+        if (bytes.empty())
+          section.error(key, "the file '" + path + "' is empty", "choose the right file");
+      }
+    catch (const UserError &error)
+      {
+        section.error(key, error.what());
+      }
+  const std::string found    = bytes.empty() ? "" : checksum_of(bytes);
+  std::string       expected = found;
+  section.entry("Checksum", expected,
+                "CRC-32 of the file, written by the program: another file is then refused.");
+  if (expected == found)
+    return bytes;
+  section.error("Checksum", "the file '" + path + "' has changed, its checksum is " + found,
+                "take the file of before, or remove the entry");
+  return "";
+}
+} // namespace scree
