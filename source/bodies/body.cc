@@ -1,4 +1,5 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/log.h>
 #include <scree/bodies/body.h>
 #include <scree/geometry/distance_claim.h>
 #include <scree/geometry/level_set_from_shape.h>
@@ -6,15 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace scree
 {
 template <int dim>
-void
+std::optional<std::vector<FamilyMember<dim>>>
 BodyParameters<dim>::declare(ParameterSection &section)
 {
   path = section.path();
   section.entry("Material", material, "Name of the material, of section Materials.");
+  const FamilyKind<dim> *family = declare_family_kind<dim>(section);
   section.entry("Body force", body_force,
                 "Force per volume, expressions of x, y, z, t separated by ';' [force/L^3].");
   section.entry("Initial velocity", initial_velocity,
@@ -26,7 +29,8 @@ BodyParameters<dim>::declare(ParameterSection &section)
   if (!initial_spin.empty() && initial_spin.size() != (dim == 2 ? 1 : 3))
     section.error("Initial spin", dim == 2 ? "must be one number" : "needs three components");
   ParameterSection shape_section = section.subsection("Shape", "The body's shape.");
-  shape.declare(shape_section);
+  shape.declare(shape_section,
+                family == nullptr || family->takes_shape ? "" : "Family = " + family->name);
   ParameterSection condition_section
     = section.subsection("Boundary conditions", "What acts on the surface of the body.");
   for (auto &[condition_name, subsection] :
@@ -40,7 +44,55 @@ BodyParameters<dim>::declare(ParameterSection &section)
   ParameterSection motion_section
     = section.subsection("Motion", "How a rigid body moves. Components without a line stay.");
   motion.declare(motion_section);
+  return declare_members(section, family, shape);
 }
+
+namespace
+{
+/** The material of a body: its density, or what is wrong with its name. */
+template <int dim>
+void
+set_material(const std::map<std::string, MaterialParameters> &materials,
+             const ParameterSection &section, BodyParameters<dim> &body)
+{
+  std::vector<std::string> known;
+  for (const auto &candidate : materials)
+    known.push_back(candidate.first);
+  if (body.material.empty())
+    section.error("Material", "no material is given", "one of: " + listed(known));
+  else if (const auto found = materials.find(body.material); found != materials.end())
+    body.density = found->second.density;
+  else
+    section.error("Material", "there is no material '" + body.material + "'",
+                  "one of: " + listed(known));
+}
+
+/** A body of the family that `family` describes. */
+template <int dim>
+BodyParameters<dim>
+body_of(const BodyParameters<dim> &family, const FamilyMember<dim> &member)
+{
+  BodyParameters<dim> body = family;
+  body.name += "-" + member.name;
+  body.path += " (" + body.name + ")";
+  body.shape_of_member = member.make_shape;
+  if (!member.material.empty())
+    body.material = member.material;
+  return body;
+}
+
+/** Records bodies of the same name: a body may have that of a family's. */
+template <int dim>
+void
+check_names(const std::vector<BodyParameters<dim>> &bodies, const ParameterSection &section)
+{
+  std::set<std::string> names;
+  for (const auto &body : bodies)
+    if (!names.insert(body.name).second)
+      section.error("Names", "two bodies are called '" + body.name + "'",
+                    "give the body, or the family, another name");
+}
+} // namespace
 
 template <int dim>
 std::vector<BodyParameters<dim>>
@@ -55,21 +107,22 @@ declare_bodies(ParameterSection                                &section,
   check_expression<dim>(section, "Gravity", gravity, dim);
   for (auto &[name, subsection] : section.named("Names", "Names of the bodies."))
     {
-      bodies.emplace_back();
-      bodies.back().name    = name;
-      bodies.back().gravity = gravity;
-      bodies.back().declare(subsection);
-      const std::string &material = bodies.back().material;
-      std::string        known;
-      for (const auto &candidate : materials)
-        known += (known.empty() ? "" : ", ") + candidate.first;
-      if (material.empty())
-        subsection.error("Material", "no material is given", "one of: " + known);
-      else if (const auto found = materials.find(material); found != materials.end())
-        bodies.back().density = found->second.density;
+      BodyParameters<dim> body;
+      body.name          = name;
+      body.gravity       = gravity;
+      const auto members = body.declare(subsection);
+      set_material(materials, subsection, body);
+      if (!members)
+        bodies.push_back(body);
       else
-        subsection.error("Material", "there is no material '" + material + "'", "one of: " + known);
+        for (const auto &member : *members)
+          {
+            bodies.push_back(body_of(body, member));
+            if (!member.material.empty())
+              set_material(materials, subsection, bodies.back());
+          }
     }
+  check_names(bodies, section);
   return bodies;
 }
 
@@ -217,8 +270,9 @@ make_bodies(const std::vector<BodyParameters<dim>>                            &p
       const auto &material = materials.at(body.material);
       const bool  is_rigid = material == nullptr;
       check_use(body, is_rigid);
-      const std::shared_ptr<const Shape<dim>> shape      = make_shape<dim>(body.shape);
-      const LatticeFrame<dim>                &body_frame = is_rigid ? wide_frame : frame;
+      const std::shared_ptr<const Shape<dim>> shape
+        = body.shape_of_member ? body.shape_of_member() : make_shape<dim>(body.shape);
+      const LatticeFrame<dim>       &body_frame = is_rigid ? wide_frame : frame;
       const dealii::BoundingBox<dim> box = clipped(shape->bounding_box(), body_frame.box, body);
       if (shape->is_claimed_distance())
         require_distance(*shape, frame.spacing, box, body.path + "/Shape");

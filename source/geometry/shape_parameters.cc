@@ -121,6 +121,35 @@ is_given(const ShapeValue &value)
     value);
 }
 
+/** The keys of entries that were given. */
+template <int dim>
+std::vector<std::string>
+given_entries(const ShapeParameters<dim> &p)
+{
+  std::vector<std::string> given;
+  for (const ShapeEntry &entry : all_entries<dim>())
+    if (is_given(p.values.at(entry.key)))
+      given.push_back(entry.key);
+  if (!p.parts.empty())
+    given.push_back("Parts");
+  return given;
+}
+
+/** Records all that was given. */
+template <int dim>
+void
+check_no_use(const ShapeParameters<dim> &p, const ParameterSection &section,
+             const std::string &instead)
+{
+  std::vector<std::string> given = given_entries(p);
+  for (const std::string key :
+       {"Type", "Rotation angle", "Rotation centre", "Rotation axis", "Translation"})
+    if (section.is_set(key))
+      given.push_back(key);
+  for (const std::string &key : given)
+    section.error(key, "'" + key + "' is not used: " + instead + " makes the shapes", "remove it");
+}
+
 /** Records entries that are missing, and those of other types. */
 template <int dim>
 void
@@ -134,14 +163,9 @@ check_use(const ShapeParameters<dim> &p, const ParameterSection &section)
       if (entry.is_required)
         required.push_back(entry.key);
     }
-  std::vector<std::string> given;
-  for (const ShapeEntry &entry : all_entries<dim>())
-    if (is_given(p.values.at(entry.key)))
-      given.push_back(entry.key);
+  const std::vector<std::string> given = given_entries(p);
   if (family.takes_parts)
     own = required = {"Parts"};
-  if (!p.parts.empty())
-    given.push_back("Parts");
 
   std::string list;
   for (const std::string &key : required)
@@ -239,7 +263,7 @@ to_point(const std::vector<double> &values)
 
 template <int dim>
 void
-ShapeParameters<dim>::declare(const ParameterSection &section)
+ShapeParameters<dim>::declare(const ParameterSection &section, const std::string &instead)
 {
   declare_type<dim>(type, section);
   for (const ShapeEntry &entry : all_entries<dim>())
@@ -248,6 +272,8 @@ ShapeParameters<dim>::declare(const ParameterSection &section)
       values[entry.key] = entry.unset);
   declare_motion(*this, section);
   declare_parts(*this, section);
+  if (!instead.empty())
+    return check_no_use(*this, section, instead);
   check_use(*this, section);
   check_values(*this, section);
   if (const auto check = family_of<dim>(type).check; check != nullptr)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/bodies/body_family.h>
 #include <scree/bodies/boundary_condition.h>
 #include <scree/bodies/rigid_body.h>
 #include <scree/geometry/shape_parameters.h>
@@ -7,8 +8,10 @@
 #include <scree/material/increment_law.h>
 #include <scree/parameters/section.h>
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,19 +26,25 @@ struct BodyParameters
   std::string          path; //!< section path, for messages
   std::string          material;
   ShapeParameters<dim> shape;
-  std::string          body_force = dim == 2 ? "0; 0" : "0; 0; 0";
-  double               density    = 0.;                            //!< of the material [mass/L^dim]
-  std::string          gravity    = dim == 2 ? "0; 0" : "0; 0; 0"; //!< of all bodies [L/time^2]
-  std::string          initial_velocity = dim == 2 ? "0; 0" : "0; 0; 0";
-  std::vector<double>  initial_spin; //!< about its centre of mass [rad/time]; empty: none
+  /** Makes the shape of a body of a family; empty: `shape` tells it. */
+  std::function<ShapePointer<dim>()> shape_of_member;
+  std::string                        body_force = dim == 2 ? "0; 0" : "0; 0; 0";
+  double                             density    = 0.;          //!< of the material [mass/L^dim]
+  std::string         gravity = dim == 2 ? "0; 0" : "0; 0; 0"; //!< of all bodies [L/time^2]
+  std::string         initial_velocity = dim == 2 ? "0; 0" : "0; 0; 0";
+  std::vector<double> initial_spin; //!< about its centre of mass [rad/time]; empty: none
   /** Named boundary conditions with their section paths. */
   std::vector<std::pair<std::string, BoundaryConditionParameters<dim>>> conditions;
   MotionParameters<dim>                                                 motion; //!< of a rigid body
 
-  void declare(ParameterSection &section);
+  /** Returns the bodies of the family that the section describes, if it is one. */
+  std::optional<std::vector<FamilyMember<dim>>> declare(ParameterSection &section);
 };
 
-/** Reads section Bodies: `set Names = ...` and one subsection per name. */
+/**
+ * Reads section Bodies: `set Names = ...` and one subsection per name, of a body or of a family. A
+ * family with problems leaves one body.
+ */
 template <int dim>
 std::vector<BodyParameters<dim>>
 declare_bodies(ParameterSection                                &section,

@@ -38,8 +38,11 @@ struct ShapeParameters
    * Declares and reads the entries of all families. Records as problems of the section: entries
    * missing for the type, entries the type does not use, coordinates that are not `dim` numbers,
    * numbers that must be positive, and what the family checks.
+   *
+   * @param instead what makes the shape if the section does not, as "Family = image": then every
+   *   entry that is given is a problem
    */
-  void declare(const ParameterSection &section);
+  void declare(const ParameterSection &section, const std::string &instead = "");
 
   double                               number(const std::string &key) const;
   const std::vector<double>           &coordinates(const std::string &key) const;

@@ -1,0 +1,182 @@
+// Families: many bodies of one section.
+#include <gtest/gtest.h>
+
+#include <scree/base/exceptions.h>
+#include <scree/bodies/body.h>
+#include <scree/level_set/binary_field.h>
+#include <scree/parameters/file.h>
+
+#include <cstdio>
+#include <fstream>
+
+namespace scree
+{
+namespace
+{
+using namespace dealii;
+
+/** A file of this test, which ends with it. */
+class TemporaryFile
+{
+public:
+  TemporaryFile(const std::string &name, const std::string &content)
+      : name(::testing::TempDir() + name)
+  {
+    std::ofstream(this->name, std::ios::binary) << content;
+  }
+  TemporaryFile(const TemporaryFile &) = delete;
+  ~TemporaryFile()
+  {
+    std::remove(name.c_str());
+  }
+
+  const std::string name;
+};
+
+/** Stones 3 and 12 of 8 x 8 pixels, beside one another, and a speck of one pixel. */
+std::string
+two_stones()
+{
+  std::string text = "P2 24 16 255\n";
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 24; ++i)
+      {
+        const bool in_rows = j >= 4 && j < 12;
+        text += i == 0 && j == 0               ? "7 "
+                : in_rows && i >= 3 && i < 11  ? "3 "
+                : in_rows && i >= 11 && i < 19 ? "12 "
+                                               : "0 ";
+      }
+  return text;
+}
+
+template <int dim>
+std::vector<BodyParameters<dim>>
+parameters(const std::string &text, std::vector<std::string> *warnings = nullptr)
+{
+  ParameterFile    file    = ParameterFile::from_string(text);
+  ParameterSection section = file.root();
+  const auto       bodies  = declare_bodies<dim>(section, {{"soft", {}}, {"hard", {}}});
+  file.check();
+  if (warnings != nullptr)
+    *warnings = file.warnings();
+  return bodies;
+}
+
+template <int dim>
+std::string
+message(const std::string &text)
+{
+  try
+    {
+      parameters<dim>(text);
+    }
+  catch (const UserError &error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+void
+expect_contains(const std::string &text, const std::string &part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+}
+
+template <int dim>
+std::vector<std::string>
+names(const std::vector<BodyParameters<dim>> &bodies)
+{
+  std::vector<std::string> result;
+  for (const auto &body : bodies)
+    result.push_back(body.name);
+  return result;
+}
+
+/** A section of a family; `lines` of its own subsection. */
+std::string
+family(const std::string &kind, const std::string &section, const std::string &lines,
+       const std::string &more = "")
+{
+  return "set Names = stone\nsubsection stone\n set Material = soft\n set Family = " + kind + "\n"
+         + more + " subsection " + section + "\n" + lines + " end\nend\n";
+}
+
+std::string
+image(const std::string &file, const std::string &lines)
+{
+  return family("image", "Image", "set File = " + file + "\n" + lines);
+}
+
+TEST(ImageFamily, MakesABodyOfEachLabel)
+{
+  const TemporaryFile      file("two_stones.pgm", two_stones());
+  std::vector<std::string> warnings;
+  const auto               found = parameters<2>(
+    image(file.name, "set Pixel size = 0.1\nset Lower corner = -1, -1\nset Smallest area = 0.02\n"),
+    &warnings);
+  EXPECT_EQ(names(found), (std::vector<std::string>{"stone-0003", "stone-0012"}));
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_contains(warnings[0], "label 7 at (-0.95, 0.55) (0.01); they are left out");
+  EXPECT_EQ(names(parameters<2>(image(file.name, "set Pixel size = 0.1\nset Labels = 12\n"))),
+            (std::vector<std::string>{"stone-0012"}));
+
+  MaterialParameters material;
+  material.young                                = 1.;
+  material.poisson                              = 0.;
+  const std::shared_ptr<const Material<2>> soft = make_material<2>(material);
+  const Point<2>                           lower(-1., -1.), upper(2., 1.);
+  const auto                               bodies
+    = make_bodies<2>(found, {{"soft", soft}}, {lower, 0.03, BoundingBox<2>({lower, upper})}, 0.3);
+  ASSERT_EQ(bodies.size(), 2u);
+  EXPECT_EQ(bodies[1].path, "stone (stone-0012)");
+  for (const auto &body : bodies)
+    EXPECT_NEAR(volume_below(body.level_set, 0.), 0.64, 3e-3) << body.name;
+  EXPECT_NEAR(bodies[1].level_set.nodal_value({0.5, -0.21}), -0.4, 0.05);
+}
+
+TEST(ImageFamily, WrongImagesAreExplained)
+{
+  const TemporaryFile file("two_stones.pgm", two_stones());
+  const std::string   size = "set Pixel size = 0.1\n";
+  expect_contains(message<2>(image("nowhere.png", size)), "cannot open the file");
+  expect_contains(message<2>(image(file.name, "")), "give the edge of a pixel");
+  expect_contains(message<2>(image(file.name, size + "set Labels = 3, 4\n")),
+                  "label 4 is not in the image");
+  expect_contains(message<2>(image(file.name, size
+                                                + "set Smallest area = 0.1\n"
+                                                  "set Small pieces = refuse\n")),
+                  "label 7 at (0.05, 1.55) (0.01)");
+  expect_contains(message<2>(image(file.name, size + "set Smallest area = 100\n")),
+                  "no label of the image becomes a body");
+  expect_contains(message<2>(image(file.name, size + "set Checksum = 12345678\n")),
+                  "has changed, its checksum is ");
+  expect_contains(message<3>(image(file.name, size)), "set Dimension = 2");
+  const TemporaryFile text("stones.txt", "stones");
+  expect_contains(message<2>(image(text.name, size)), "no PNG and no PGM");
+  const TemporaryFile pieces("pieces.pgm", "P2 5 1 9\n1 1 0 1 0\n");
+  expect_contains(message<2>(image(pieces.name, size)),
+                  "label 1 at (0.35, 0.05) is a piece of 1 pixels (area 0.01) that does not touch "
+                  "the larger one of 2 pixels at (0.05, 0.05)");
+}
+
+TEST(BodyFamilies, EntriesThatDoNotGoTogetherAreExplained)
+{
+  const TemporaryFile file("two_stones.pgm", two_stones());
+  const std::string   lines = "set File = " + file.name + "\nset Pixel size = 0.1\n";
+  expect_contains(
+    message<2>(family("image", "Image", lines, "subsection Shape\nset Radius = 1\nend\n")),
+    "'Radius' is not used: Family = image makes the shapes");
+  expect_contains(message<2>(family("none", "Image", lines,
+                                    "subsection Shape\nset Centre = 0, 0\nset Radius = 1\nend\n")),
+                  "set Family = image, or remove it");
+  expect_contains(message<2>(family("imgae", "Image", lines)), "did you mean 'image'");
+  std::string both = image(file.name, "set Pixel size = 0.1\n");
+  both.replace(both.find("= stone"), 7, "= stone, stone-0012");
+  both += "subsection stone-0012\nset Material = soft\nsubsection Shape\nset Centre = 0, 0\n"
+          "set Radius = 1\nend\nend\n";
+  expect_contains(message<2>(both), "two bodies are called 'stone-0012'");
+}
+} // namespace
+} // namespace scree
