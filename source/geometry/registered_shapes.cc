@@ -8,6 +8,7 @@
 #include <scree/geometry/polygon.h>
 #include <scree/geometry/ring.h>
 #include <scree/geometry/superellipse.h>
+#include <scree/geometry/surface_shape.h>
 
 namespace scree
 {
@@ -16,10 +17,10 @@ const std::vector<ShapeFamily<dim>> &
 registered_shapes()
 {
   static const std::vector<ShapeFamily<dim>> families = {
-    Ball<dim>::family(),          Box<dim>::family(),          HalfSpace<dim>::family(),
-    Ellipse<dim>::family(),       Ring<dim>::family(),         Capsule<dim>::family(),
-    Polygon::family<dim>(),       Superellipse<dim>::family(), ExpressionShape<dim>::family(),
-    CombinedShape<dim>::family(),
+    Ball<dim>::family(),    Box<dim>::family(),           HalfSpace<dim>::family(),
+    Ellipse<dim>::family(), Ring<dim>::family(),          Capsule<dim>::family(),
+    Polygon::family<dim>(), Superellipse<dim>::family(),  ExpressionShape<dim>::family(),
+    surface_family<dim>(),  CombinedShape<dim>::family(),
   };
   return families;
 }

@@ -267,9 +267,14 @@ ShapeParameters<dim>::declare(const ParameterSection &section, const std::string
 {
   declare_type<dim>(type, section);
   for (const ShapeEntry &entry : all_entries<dim>())
-    std::visit(
-      [&](auto &value) { section.entry(entry.key, value, documentation_of<dim>(entry.key)); },
-      values[entry.key] = entry.unset);
+    {
+      ShapeValue       &value = values[entry.key] = entry.unset;
+      const std::string text                      = documentation_of<dim>(entry.key);
+      if (entry.is_file)
+        section.file(entry.key, std::get<std::string>(value), text);
+      else
+        std::visit([&](auto &content) { section.entry(entry.key, content, text); }, value);
+    }
   declare_motion(*this, section);
   declare_parts(*this, section);
   if (!instead.empty())

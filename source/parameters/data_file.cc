@@ -22,6 +22,19 @@ checksum_of(const std::string &bytes)
 }
 } // namespace
 
+bool
+declare_checksum(const ParameterSection &section, const std::string &path, const std::string &bytes)
+{
+  const std::string found    = bytes.empty() ? "" : checksum_of(bytes);
+  std::string       expected = found;
+  section.entry("Checksum", expected,
+                "CRC-32 of the file, written by the program: another file is then refused.");
+  if (expected != found && !bytes.empty())
+    section.error("Checksum", "the file '" + path + "' has changed, its checksum is " + found,
+                  "take the file of before, or remove the entry");
+  return expected == found;
+}
+
 std::string
 read_data_file(const ParameterSection &section, const std::string &key, std::string &path,
                const std::size_t largest_size, const std::string &what,
@@ -42,14 +55,6 @@ read_data_file(const ParameterSection &section, const std::string &key, std::str
       {
         section.error(key, error.what());
       }
-  const std::string found    = bytes.empty() ? "" : checksum_of(bytes);
-  std::string       expected = found;
-  section.entry("Checksum", expected,
-                "CRC-32 of the file, written by the program: another file is then refused.");
-  if (expected == found)
-    return bytes;
-  section.error("Checksum", "the file '" + path + "' has changed, its checksum is " + found,
-                "take the file of before, or remove the entry");
-  return "";
+  return declare_checksum(section, path, bytes) ? bytes : "";
 }
 } // namespace scree

@@ -21,6 +21,7 @@ struct ShapeEntry
   ShapeValue  unset;               //!< tells the kind of value
   bool        is_positive = false; //!< all its numbers must be
   bool        is_required = true;
+  bool        is_file     = false; //!< a text that names one
 };
 
 constexpr double unset_number = std::numeric_limits<double>::quiet_NaN();

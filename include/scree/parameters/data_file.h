@@ -8,9 +8,18 @@
 namespace scree
 {
 /**
- * Declares `key` as the name of a file of `what`, as "labels", and entry Checksum, by which a run
- * that is resumed or repeated sees whether the file is still the same. Returns its bytes; nothing
- * if the name or the checksum is missing or wrong, which is recorded. `path` becomes the name.
+ * Declares entry Checksum, by which a run that is resumed or repeated sees whether a file is still
+ * the same. Returns whether it is; if not, that is recorded.
+ *
+ * @param path  of the file, for messages
+ * @param bytes of the file; empty: it is not known
+ */
+bool declare_checksum(const ParameterSection &section, const std::string &path,
+                      const std::string &bytes);
+
+/**
+ * Declares `key` as the name of a file of `what`, as "labels", and Checksum. Returns its bytes;
+ * nothing if the name or the checksum is wrong, which is recorded. `path` becomes the name.
  *
  * @param largest_size the most bytes that are read
  */
