@@ -1,6 +1,8 @@
 #include <scree/base/exceptions.h>
-#include <scree/bodies/body_family.h>
+#include <scree/bodies/array_family.h>
 #include <scree/bodies/image_family.h>
+#include <scree/bodies/list_family.h>
+#include <scree/bodies/packing_family.h>
 
 namespace scree
 {
@@ -8,7 +10,8 @@ template <int dim>
 const std::vector<FamilyKind<dim>> &
 registered_families()
 {
-  static const std::vector<FamilyKind<dim>> kinds = {image_family<dim>()};
+  static const std::vector<FamilyKind<dim>> kinds
+    = {image_family<dim>(), list_family<dim>(), array_family<dim>(), packing_family<dim>()};
   return kinds;
 }
 
@@ -44,9 +47,6 @@ declare_family_kind(const ParameterSection &section)
 
 namespace
 {
-/** Files of a few megabytes can hold more than anybody means. */
-constexpr std::size_t most_members = 100000;
-
 template <int dim>
 std::vector<FamilyMember<dim>>
 members_of(const FamilyKind<dim> &family, const ParameterSection &section,

@@ -7,7 +7,7 @@ namespace scree
 using namespace dealii;
 
 template <int dim>
-MovedShape<dim>::MovedShape(ShapePointer<dim> shape, const Tensor<2, dim> &rotation,
+MovedShape<dim>::MovedShape(std::shared_ptr<const Shape<dim>> shape, const Tensor<2, dim> &rotation,
                             const Point<dim> &centre, const Tensor<1, dim> &translation)
     : shape(std::move(shape))
     , rotation(rotation)

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <random>
 
 namespace scree
 {
@@ -159,6 +160,117 @@ TEST(ImageFamily, WrongImagesAreExplained)
   expect_contains(message<2>(image(pieces.name, size)),
                   "label 1 at (0.35, 0.05) is a piece of 1 pixels (area 0.01) that does not touch "
                   "the larger one of 2 pixels at (0.05, 0.05)");
+}
+
+/** What the shape of a body gives at a point. */
+template <int dim>
+double
+distance(const BodyParameters<dim> &body, const Point<dim> &x)
+{
+  return body.shape_of_member()->signed_distance(x);
+}
+
+TEST(ArrayFamily, CopiesTheShape)
+{
+  const std::string disc
+    = "subsection Shape\nset Centre = 0, 0\nset Radius = 0.5\nset Translation = 1, 1\nend\n";
+  const auto found = parameters<2>(
+    family("array", "Array", "set Counts = 3, 2\nset Spacing = 1, 0.9\nset Shift = 0.5\n", disc));
+  ASSERT_EQ(found.size(), 6u);
+  EXPECT_EQ(found[5].name, "stone-0006");
+  EXPECT_NEAR(distance(found[0], {1, 1}), -0.5, 1e-14);
+  EXPECT_NEAR(distance(found[2], {3, 1}), -0.5, 1e-14);
+  EXPECT_NEAR(distance(found[5], {3.5, 1.9}), -0.5, 1e-14);
+  expect_contains(
+    message<2>(family("array", "Array", "set Counts = 3\nset Spacing = 1, 1\n", disc)),
+    "needs 2 numbers greater than zero");
+  expect_contains(
+    message<2>(family("array", "Array", "set Counts = 3, 3\nset Spacing = 1\n", disc)),
+    "needs 2 lengths");
+  expect_contains(
+    message<2>(family("array", "Array", "set Counts = 60000, 60000\nset Spacing = 1, 1\n", disc)),
+    "too many bodies");
+  expect_contains(message<2>(family("array", "Array", "set Counts = 3, 3\nset Spacing = 1, 1\n")),
+                  "needs the entry 'Radius'");
+}
+
+TEST(ListFamily, MakesABodyOfEachRow)
+{
+  const TemporaryFile file("stones.csv", "# a table\nName, Type, Centre x, Centre y, Radius, "
+                                         "Semi-axes x, Semi-axes y, Material\n"
+                                         "\nbig, disc, 1, 2, 3, , , \n"
+                                         ", ellipse, 1, 1, , 2, 1, hard # the second\n");
+  const auto found = parameters<2>(family("list", "List", "set File = " + file.name + "\n"));
+  EXPECT_EQ(names(found), (std::vector<std::string>{"stone-big", "stone-0002"}));
+  EXPECT_EQ(found[0].material, "soft");
+  EXPECT_EQ(found[1].material, "hard");
+  EXPECT_NEAR(distance(found[0], {1, 2}), -3., 1e-14);
+  EXPECT_NEAR(distance(found[1], {1, 3}), 1., 1e-12);
+}
+
+TEST(ListFamily, WrongTablesAreExplained)
+{
+  const auto told = [](const std::string &table) {
+    const TemporaryFile file("wrong.csv", table);
+    return message<2>(family("list", "List", "set File = " + file.name + "\n"));
+  };
+  const std::string columns = "Centre x, Centre y, Radius\n";
+  expect_contains(told(columns), "the table has no row");
+  expect_contains(told(columns + "1, 2\n"), "wrong.csv:2: the row has 2 cells, the first line 3");
+  expect_contains(told(columns + "1, 2, -3\n"), "wrong.csv, line 2, column:3");
+  expect_contains(told(columns + "1, 2, -3\n"), "'Radius' must be greater than zero");
+  expect_contains(told(columns + "1, b, 3\n"), "line 2, column:1");
+  expect_contains(told("Centre x, Centre y, Radious\n1, 2, 3\n"), "did you mean 'Radius'");
+  expect_contains(told("Radius, Radius\n1, 2\n"), "two columns are called 'Radius'");
+  expect_contains(told("Name, Centre x, Centre y, Radius\na/b, 1, 2, 3\n"), "cannot be a name");
+  expect_contains(told("Name, Centre x, Centre y, Radius\na, 1, 2, 3\na, 1, 2, 3\n"),
+                  "two bodies are called 'stone-a'");
+  expect_contains(told("Material, Centre x, Centre y, Radius\nwood, 1, 2, 3\n"),
+                  "there is no material 'wood'");
+}
+
+// Whatever the bytes of a table are, there are bodies or a message.
+TEST(ListFamily, SurvivesDamage)
+{
+  const std::string original = "Name, Type, Centre x, Centre y, Radius, Semi-axes x, Semi-axes y\n"
+                               "a, disc, 1, 2, 3, , \nb, ellipse, 1, 1, , 2, 1\n";
+  std::mt19937_64   random(11);
+  unsigned int      n_read = 0, n_refused = 0;
+  for (unsigned int i = 0; i < 2000; ++i)
+    {
+      std::string table = original;
+      for (unsigned int k = 0; k <= random() % 2; ++k)
+        {
+          const std::size_t place = random() % table.size();
+          if (random() % 3 == 0)
+            table[place] = static_cast<char>(random());
+          else if (random() % 2 == 0)
+            table[place] = "0123456789"[random() % 10];
+          else
+            table.insert(place, table.substr(random() % table.size(), random() % 30));
+        }
+      const TemporaryFile file("mutant.csv", table);
+      const std::string told = message<2>(family("list", "List", "set File = " + file.name + "\n"));
+      ++(told.empty() ? n_read : n_refused);
+    }
+  EXPECT_GT(n_read, 100u);
+  EXPECT_GT(n_refused, 500u);
+}
+
+TEST(PackingFamily, MakesDiscs)
+{
+  const std::string lines = "set Number = 10\nset Upper corner = 2, 1\n";
+  const auto        found = parameters<2>(family("packing", "Packing", lines));
+  ASSERT_EQ(found.size(), 10u);
+  const auto box = found[0].shape_of_member()->bounding_box();
+  EXPECT_GT(box.lower_bound(0), -1e-12);
+  const auto loose = parameters<2>(family("packing", "Packing", lines + "set Growth = 0.5\n"));
+  EXPECT_NEAR(loose[0].shape_of_member()->bounding_box().side_length(0), 0.5 * box.side_length(0),
+              1e-12);
+  expect_contains(message<2>(family("packing", "Packing", "set Upper corner = 2, 1\n")),
+                  "give a number of bodies");
+  expect_contains(message<2>(family("packing", "Packing", "set Number = 10\n")),
+                  "is not above Lower corner");
 }
 
 TEST(BodyFamilies, EntriesThatDoNotGoTogetherAreExplained)

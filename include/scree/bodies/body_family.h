@@ -9,6 +9,9 @@
 
 namespace scree
 {
+/** A family has at most as many bodies: files of a few megabytes can hold more than is meant. */
+constexpr std::size_t most_members = 100000;
+
 /** A body of a family. */
 template <int dim>
 struct FamilyMember

@@ -9,7 +9,7 @@ template <int dim>
 class MovedShape : public Shape<dim>
 {
 public:
-  MovedShape(ShapePointer<dim> shape, const dealii::Tensor<2, dim> &rotation,
+  MovedShape(std::shared_ptr<const Shape<dim>> shape, const dealii::Tensor<2, dim> &rotation,
              const dealii::Point<dim> &centre, const dealii::Tensor<1, dim> &translation);
 
   double signed_distance(const dealii::Point<dim> &x) const override;
@@ -26,10 +26,10 @@ public:
                      std::vector<SmoothPiece<dim>>  &pieces) const override;
 
 private:
-  ShapePointer<dim>      shape;
-  dealii::Tensor<2, dim> rotation;
-  dealii::Point<dim>     centre;
-  dealii::Tensor<1, dim> translation;
+  std::shared_ptr<const Shape<dim>> shape;
+  dealii::Tensor<2, dim>            rotation;
+  dealii::Point<dim>                centre;
+  dealii::Tensor<1, dim>            translation;
 };
 
 /** The rotation by an angle [degrees]; `axis`, of any length, counts in 3D (Rodrigues' formula). */
