@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_out.h>
 
+#include <optional>
+
 namespace scree
 {
 template <int dim>
@@ -140,7 +142,13 @@ Simulation<dim>::write_results(const StepRecord &record)
   results.write_probes(record, *problem.kinematics, ghosted);
   bool is_written = true;
   if (is_due(parameters.output.fields_every))
-    is_written &= results.write_fields(record, *problem.kinematics, ghosted);
+    {
+      std::optional<VelocityField<dim>> velocities;
+      if (problem.mass)
+        velocities.emplace(*problem.mass, u, model.state().predictor.rates.velocity);
+      is_written &= results.write_fields(record, *problem.kinematics, ghosted,
+                                         velocities ? &*velocities : nullptr);
+    }
   if (is_due(parameters.output.contact_every))
     is_written &= results.write_contact(record, problem.contact());
   if (!is_written)
@@ -165,7 +173,7 @@ Simulation<dim>::check()
   const DiscreteProblem<dim> &problem = model.problem();
   results.write_contact(StepRecord(), problem.contact());
   results.write_fields(StepRecord(), *problem.kinematics,
-                       problem.equilibrium().with_ghosts(model.state().displacement));
+                       problem.equilibrium().with_ghosts(model.state().displacement), nullptr);
   write_regions_csv(problem.boundary_terms.regions(), model.state().bodies, communicator,
                     directory);
   dealii::GridOut().write_mesh_per_processor_as_vtu(problem.grid.triangulation(),

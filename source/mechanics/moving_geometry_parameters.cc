@@ -61,6 +61,12 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "What happens when a deformable body moves out through a face of the background "
                 "box, where its level set is cut off. refused: the run ends. allowed: it goes on, "
                 "and the part outside is lost.");
+  check_integration(section);
+}
+
+void
+MovingGeometryParameters::check_integration(ParameterSection &section) const
+{
   if (integration == BulkIntegration::material_points && !is_moving)
     section.error("Bulk integration", "there are no material points on a fixed geometry",
                   "set Update = every step, or integrate in cut cells");

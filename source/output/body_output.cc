@@ -148,9 +148,11 @@ clip_box(const std::vector<dealii::Point<dim>> &corners, const std::vector<doubl
 /** Names of the fields, one per row of a patch. */
 template <int dim>
 std::vector<std::string>
-field_names()
+field_names(const bool with_velocity)
 {
   std::vector<std::string> names(dim, "displacement");
+  if (with_velocity)
+    names.insert(names.end(), dim, "velocity");
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
       names.push_back("stress_" + axes[i] + axes[j]);
@@ -163,24 +165,34 @@ field_names()
   return names;
 }
 
-/** A piece with the given vertices and what `sample(v)` finds there. */
-template <int dim, typename Sample>
+/** What is known at a vertex. */
+template <int dim>
+struct VertexSample
+{
+  BulkSample<dim>        bulk;
+  dealii::Tensor<1, dim> velocity;
+};
+
+/** A piece with the given vertices and what is known there. */
+template <int dim>
 dealii::DataOutBase::Patch<dim, dim>
 make_patch(const std::vector<dealii::Point<dim>> &vertices, const unsigned int body,
-           const Sample &sample)
+           const std::vector<VertexSample<dim>> &samples, const bool with_velocity)
 {
   dealii::DataOutBase::Patch<dim, dim> patch;
   patch.reference_cell = vertices.size() == dim + 1 ? dealii::ReferenceCells::get_simplex<dim>()
                                                     : dealii::ReferenceCells::get_hypercube<dim>();
   patch.n_subdivisions = 1;
-  patch.data.reinit(field_names<dim>().size(), vertices.size());
+  patch.data.reinit(field_names<dim>(with_velocity).size(), vertices.size());
   for (unsigned int v = 0; v < vertices.size(); ++v)
     {
-      patch.vertices[v]           = vertices[v];
-      const BulkSample<dim> found = sample(v);
-      unsigned int          row   = 0;
+      patch.vertices[v]            = vertices[v];
+      const BulkSample<dim> &found = samples[v].bulk;
+      unsigned int           row   = 0;
       for (unsigned int d = 0; d < dim; ++d)
         patch.data(row++, v) = found.displacement[d];
+      for (unsigned int d = 0; d < dim && with_velocity; ++d)
+        patch.data(row++, v) = samples[v].velocity[d];
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
           patch.data(row++, v) = found.stress[i][j];
@@ -345,46 +357,55 @@ BodyOutput<dim>::cut_rigid_cell(const unsigned int                     body,
 template <int dim>
 std::string
 BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
-                       const dealii::TrilinosWrappers::MPI::Vector &u, const std::string &directory,
+                       const dealii::TrilinosWrappers::MPI::Vector &u,
+                       const VelocityField<dim> *velocities, const std::string &directory,
                        const unsigned int number, const double time) const
 {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const PointEvaluator<dim> field(space, u), start = kinematics.start_displacement_field();
-  const bool                is_moved = kinematics.moves_bodies();
-  Patches<dim>              output;
-  output.names   = field_names<dim>();
+  const PointEvaluator<dim>      field(space, u), start = kinematics.start_displacement_field();
+  const bool                     is_moved      = kinematics.moves_bodies();
+  const bool                     with_velocity = velocities != nullptr;
+  Patches<dim>                   output;
+  std::vector<VertexSample<dim>> samples;
+  output.names   = field_names<dim>(with_velocity);
   output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
+  if (with_velocity)
+    output.vectors.emplace_back(dim, 2 * dim - 1, "velocity",
+                                Interpretation::component_is_part_of_vector);
+  const auto add = [&](const std::vector<dealii::Point<dim>> &vertices, const unsigned int body) {
+    output.patches.push_back(make_patch<dim>(vertices, body, samples, with_velocity));
+    output.patches.back().patch_index = output.patches.size() - 1;
+    samples.clear();
+  };
 
   for (const Piece &piece : body_pieces)
     {
-      const ActiveCell               &cell = space.cells()[piece.active_cell];
       std::vector<dealii::Point<dim>> vertices;
-      std::vector<BulkSample<dim>>    samples;
       for (const auto &vertex : piece.vertices)
         {
+          const PointInCell<dim> point = {piece.active_cell, vertex};
+          samples.push_back({kinematics.bulk().sample(piece.active_cell, vertex, field),
+                             with_velocity ? velocities->value(point) : dealii::Tensor<1, dim>()});
           vertices.push_back(space.position(piece.active_cell, vertex));
-          samples.push_back(kinematics.bulk().sample(piece.active_cell, vertex, field));
           if (is_moved)
-            vertices.back()
-              += samples.back().displacement - start.value({piece.active_cell, vertex});
+            vertices.back() += samples.back().bulk.displacement - start.value(point);
         }
-      output.patches.push_back(
-        make_patch<dim>(vertices, cell.body, [&](const unsigned int v) { return samples[v]; }));
-      output.patches.back().patch_index = output.patches.size() - 1;
+      add(vertices, space.cells()[piece.active_cell].body);
     }
   for (const RigidPiece &piece : cut_rigid_bodies())
     {
       const RigidPose<dim> pose(*bodies[piece.body].rigid, rigid_unknowns(space, piece.body, u));
-      std::vector<dealii::Point<dim>> vertices = piece.vertices;
-      if (is_moved)
-        for (auto &vertex : vertices)
-          vertex += pose.displacement(vertex);
-      output.patches.push_back(make_patch<dim>(vertices, piece.body, [&](const unsigned int v) {
-        BulkSample<dim> sample;
-        sample.displacement = pose.displacement(piece.vertices[v]);
-        return sample;
-      }));
-      output.patches.back().patch_index = output.patches.size() - 1;
+      std::vector<dealii::Point<dim>> vertices;
+      for (const auto &vertex : piece.vertices)
+        {
+          samples.emplace_back();
+          samples.back().bulk.displacement = pose.displacement(vertex);
+          const dealii::Point<dim> moved   = vertex + samples.back().bulk.displacement;
+          if (with_velocity)
+            samples.back().velocity = velocities->value(piece.body, moved);
+          vertices.push_back(is_moved ? moved : vertex);
+        }
+      add(vertices, piece.body);
     }
   dealii::DataOutBase::VtkFlags flags;
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;

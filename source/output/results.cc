@@ -338,12 +338,13 @@ Results<dim>::write_history()
 template <int dim>
 bool
 Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kinematics,
-                           const Vector &ghosted_u)
+                           const Vector &ghosted_u, const VelocityField<dim> *velocities)
 {
   if (!body_output)
     body_output = std::make_unique<BodyOutput<dim>>(*space, *nodes, bodies);
   bool is_written = add_picture(
-    record.time, body_output->write(kinematics, ghosted_u, directory, record.step, record.time),
+    record.time,
+    body_output->write(kinematics, ghosted_u, velocities, directory, record.step, record.time),
     "bodies.pvd", body_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)

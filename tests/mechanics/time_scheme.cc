@@ -3,6 +3,7 @@
 
 #include <scree/mechanics/one_step_scheme.h>
 #include <scree/mechanics/quasi_static.h>
+#include <scree/mechanics/velocity_field.h>
 
 #include <functional>
 
@@ -224,6 +225,33 @@ TEST(Inertia, FitsKeepMomentum)
   rates.velocity = body.mass->fit(values);
   EXPECT_NEAR((body.momentum().linear - momentum).norm(), 0., 1e-12);
   EXPECT_NEAR(body.momentum().angular[2], angular, 1e-12);
+}
+
+// v + w x (x - c), of deformable bodies and of rigid ones alike.
+TEST(Inertia, VelocityFieldOfSpinningBodies)
+{
+  const std::string motion = motion_text("set Reference point = 0.1, 0.2\nset Force x = 0\n"
+                                         "set Force y = 0\nset Moment = 0");
+  for (const std::string &of_rigid : {std::string(), motion})
+    {
+      FreeBody<2>            body(ball_text("0.02, 0.01", 0.63)
+                                  + "  set Initial velocity = 3; -2\n  set Initial spin = 5\n" + of_rigid);
+      const VelocityField<2> velocity(*body.mass, body.model.state.displacement,
+                                      body.model.state.predictor.rates.velocity);
+      const Point<2>         x(0.3, -0.1);
+      Tensor<1, 2>           found = velocity.value(0, x);
+      if (of_rigid.empty())
+        {
+          EXPECT_EQ(found.norm(), 0.);
+          const auto &space = *body.model.cut.space;
+          const int   cell  = space.nearest_active_cell(x, 0);
+          ASSERT_GE(cell, 0);
+          found = velocity.value(PointInCell<2>{unsigned(cell), space.unit_point(cell, x)});
+        }
+      // about the centroid
+      EXPECT_NEAR(found[0], 3. - 5. * (x[1] - 0.01), 1e-2);
+      EXPECT_NEAR(found[1], -2. + 5. * (x[0] - 0.02), 1e-2);
+    }
 }
 
 // The tangent is the derivative of the residual, turned rigid bodies in 3D included.

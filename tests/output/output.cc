@@ -222,7 +222,7 @@ TEST(BodyOutput, OnlyThePhysicalPartIsWritten)
   const BodyOutput<2> output(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies);
   const std::string   name
     = output.write(model.kinematics, model.equilibrium.with_ghosts(model.state.displacement),
-                   directory.path, 0, 0.5);
+                   nullptr, directory.path, 0, 0.5);
   EXPECT_EQ(name, "bodies_0000.vtu");
   const std::string text = content(directory.path + "/" + name);
   EXPECT_NE(text.find("displacement"), std::string::npos);

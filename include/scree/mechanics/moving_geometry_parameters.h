@@ -44,7 +44,6 @@ struct MovingGeometryParameters
   double              largest_slip         = 1.;    //!< of contact in a step, in finest cells
   bool                may_leave_box        = false; //!< whether bodies may be cut off by the box
 
-  /** @throws UserError for material points on a fixed geometry */
   void declare(ParameterSection &section);
 
   /** m of the m^dim points of a cell, with displacements of a degree. */
@@ -58,5 +57,9 @@ struct MovingGeometryParameters
   {
     return degree_of_fits == as_displacement ? degree : degree_of_fits;
   }
+
+private:
+  /** Records a problem with `integration`, or what it costs. */
+  void check_integration(ParameterSection &section) const;
 };
 } // namespace scree

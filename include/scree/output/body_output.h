@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/equilibrium.h>
+#include <scree/mechanics/velocity_field.h>
 
 #include <string>
 #include <vector>
@@ -10,10 +11,11 @@ namespace scree
 /**
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
  * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
- * displacement, stress, von Mises and principal stresses. On a fixed geometry they are undeformed
- * (ParaView: Warp By Vector), on a moving one they are where they are at the end of the step: the
- * field datum points_are_moved is 0 or 1, TimeValue the time. Rigid bodies come whole, from a
- * coarse lattice with exact edges and corners, without stress; the first process writes them.
+ * displacement, with inertia velocity, stress, von Mises and principal stresses. On a fixed
+ * geometry they are undeformed (ParaView: Warp By Vector), on a moving one they are where they are
+ * at the end of the step: the field datum points_are_moved is 0 or 1, TimeValue the time. Rigid
+ * bodies come whole, from a coarse lattice with exact edges and corners, without stress; the first
+ * process writes them.
  */
 template <int dim>
 class BodyOutput
@@ -22,9 +24,14 @@ public:
   BodyOutput(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
              const std::vector<Body<dim>> &bodies);
 
-  /** Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted. */
+  /**
+   * Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted.
+   *
+   * @param velocities null without inertia
+   */
   std::string write(const Kinematics<dim>                       &kinematics,
-                    const dealii::TrilinosWrappers::MPI::Vector &u, const std::string &directory,
+                    const dealii::TrilinosWrappers::MPI::Vector &u,
+                    const VelocityField<dim> *velocities, const std::string &directory,
                     const unsigned int number, const double time) const;
 
   /**

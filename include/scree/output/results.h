@@ -103,9 +103,13 @@ public:
   /** Writes the gathered rows. @throws UserError if that of history.csv has no finite number */
   void write_history();
 
-  /** Body VTU and lines; whether all was written, known to the first process. */
+  /**
+   * Body VTU and lines; whether all was written, known to the first process.
+   *
+   * @param velocities null without inertia
+   */
   bool write_fields(const StepRecord &record, const Kinematics<dim> &kinematics,
-                    const Vector &ghosted_u);
+                    const Vector &ghosted_u, const VelocityField<dim> *velocities);
 
   /** Contact CSV and VTU; whether all was written, known to the first process. */
   bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
