@@ -134,7 +134,7 @@ TEST(ImageFamily, MakesABodyOfEachLabel)
   EXPECT_EQ(bodies[1].path, "stone (stone-0012)");
   for (const auto &body : bodies)
     EXPECT_NEAR(volume_below(body.level_set, 0.), 0.64, 3e-3) << body.name;
-  EXPECT_NEAR(bodies[1].level_set.nodal_value({0.5, -0.21}), -0.4, 0.05);
+  EXPECT_NEAR(bodies[1].level_set.value({0.5, -0.21}, 1), -0.4, 0.05);
 }
 
 TEST(ImageFamily, WrongImagesAreExplained)
