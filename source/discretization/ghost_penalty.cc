@@ -4,6 +4,20 @@
 
 namespace scree
 {
+namespace
+{
+/** The nodes of a face's two cells, those that they share twice. */
+template <int dim>
+std::vector<DofIndex>
+nodes_of(const DisplacementSpace<dim> &space, const GhostFace &face)
+{
+  const unsigned int    n = space.basis.n_nodes;
+  std::vector<DofIndex> nodes(space.nodes(face.cell), space.nodes(face.cell) + n);
+  nodes.insert(nodes.end(), space.nodes(face.neighbor), space.nodes(face.neighbor) + n);
+  return nodes;
+}
+} // namespace
+
 template <int dim>
 GhostPenalty<dim>::GhostPenalty(const DisplacementSpace<dim> &space, const double factor)
     : space(space)
@@ -24,12 +38,10 @@ template <int dim>
 std::vector<std::vector<DofIndex>>
 GhostPenalty<dim>::couplings() const
 {
-  const unsigned int                 n = space.basis.n_nodes;
   std::vector<std::vector<DofIndex>> result;
   for (const GhostFace &face : jumps.faces())
     {
-      std::vector<DofIndex> nodes(space.nodes(face.cell), space.nodes(face.cell) + n);
-      nodes.insert(nodes.end(), space.nodes(face.neighbor), space.nodes(face.neighbor) + n);
+      std::vector<DofIndex> nodes = nodes_of(space, face);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       result.push_back(nodes);
@@ -100,8 +112,7 @@ GhostPenalty<dim>::add_start_forces(const CutStiffness &stiffness, const PointEv
           for (unsigned int i = 0; i < 2 * n; ++i)
             of_face(i * dim + d) = factor * of_component(i);
         }
-      std::vector<DofIndex> nodes(space.nodes(face.cell), space.nodes(face.cell) + n);
-      nodes.insert(nodes.end(), space.nodes(face.neighbor), space.nodes(face.neighbor) + n);
+      const std::vector<DofIndex> nodes = nodes_of(space, face);
       space.hanging_constraints().distribute_local_to_global(
         of_face, unknowns_of_nodes<dim>(nodes.data(), nodes.size()), forces);
     }

@@ -53,20 +53,22 @@ require_two_facets_per_edge(const TriangleSoup &soup, const std::string &name)
       const auto        &corners = soup.triangles[t];
       const Tensor<1, 3> first   = soup.points[corners[1]] - soup.points[corners[0]],
                          second  = soup.points[corners[2]] - soup.points[corners[0]];
-      require(cross_product_3d(first, second).norm() > 1e-12 * first.norm() * second.norm(), name,
-              facet(soup, t) + " has no area", remedy);
+      if (!(cross_product_3d(first, second).norm() > 1e-12 * first.norm() * second.norm()))
+        throw UserError(name, facet(soup, t) + " has no area", remedy);
       for (unsigned int c = 0; c < 3; ++c)
         {
           const auto edge = std::minmax(corners[c], corners[(c + 1) % 3]);
           auto      &seen = facets.emplace(edge, std::make_pair(t, 0u)).first->second;
-          require(++seen.second <= 2, name,
-                  "more than two facets meet in an edge of " + facet(soup, t), remedy);
+          if (++seen.second > 2)
+            throw UserError(name, "more than two facets meet in an edge of " + facet(soup, t),
+                            remedy);
         }
     }
   for (const auto &[edge, seen] : facets)
-    require(seen.second == 2, name,
-            "the surface is open: " + facet(soup, seen.first) + " has an edge without neighbour",
-            remedy);
+    if (seen.second != 2)
+      throw UserError(
+        name, "the surface is open: " + facet(soup, seen.first) + " has an edge without neighbour",
+        remedy);
 }
 
 /** The mesh of a soup, its facets in the same order, turned outwards. */
@@ -108,10 +110,11 @@ require_single_sheet(const Mesh &mesh, const TriangleSoup &soup, const std::stri
   std::map<Mesh::Face_index, std::size_t> parts;
   const auto n = PMP::connected_components(mesh, boost::make_assoc_property_map(parts));
   for (const auto &[face, part] : parts)
-    require(n == 1 || part == 0, name,
-            "the surface has " + std::to_string(n) + " parts that are apart; one begins with "
-              + facet(soup, face),
-            "write each part to a file of its own, and remove closed holes");
+    if (part != 0)
+      throw UserError(name,
+                      "the surface has " + std::to_string(n)
+                        + " parts that are apart; one begins with " + facet(soup, face),
+                      "write each part to a file of its own, and remove closed holes");
 }
 } // namespace
 

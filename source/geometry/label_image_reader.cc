@@ -110,13 +110,14 @@ read_png_rows(PngReader &reader, PngSource &source, std::vector<png_bytep> &rows
 LabelImage
 read_png(const std::string &bytes, const std::string &name)
 {
-  const auto where
-    = [&](const PngSource &source) { return name + ", byte " + std::to_string(source.position); };
   PngSource source(bytes);
   PngReader reader(source);
   require(reader.info != nullptr, name, "there is no memory to read the image", "make room");
-  require(read_png_header(reader, source), where(source),
-          "the PNG image is damaged: " + std::string(source.message), image_remedy);
+  const auto require_read = [&](const bool is_read) {
+    require(is_read, name + ", byte " + std::to_string(source.position),
+            "the PNG image is damaged: " + std::string(source.message), image_remedy);
+  };
+  require_read(read_png_header(reader, source));
   const auto width  = png_get_image_width(reader.png, reader.info),
              height = png_get_image_height(reader.png, reader.info);
   const auto colour = png_get_color_type(reader.png, reader.info);
@@ -134,8 +135,7 @@ read_png(const std::string &bytes, const std::string &name)
   std::vector<png_bytep> rows(height);
   for (std::size_t j = 0; j < height; ++j)
     rows[j] = &content[j * bytes_of_row];
-  require(read_png_rows(reader, source, rows), where(source),
-          "the PNG image is damaged: " + std::string(source.message), image_remedy);
+  require_read(read_png_rows(reader, source, rows));
   std::vector<LabelImage::Label> labels(static_cast<std::size_t>(width) * height);
   for (std::size_t j = 0, k = 0; j < height; ++j)
     for (std::size_t i = 0; i < width; ++i, ++k)
@@ -167,13 +167,15 @@ public:
     const std::size_t first  = place;
     for (; place < bytes.size() && bytes[place] >= '0' && bytes[place] <= '9'; ++place)
       {
-        require(place - first < 9, where(), what + " of the PGM image is too large", image_remedy);
+        if (place - first >= 9)
+          throw UserError(where(), what + " of the PGM image is too large", image_remedy);
         result = 10 * result + (bytes[place] - '0');
       }
-    require(place > first, where(),
-            place == bytes.size() ? "the PGM image ends before " + what
-                                  : what + " of the PGM image is no number",
-            image_remedy);
+    if (place == first)
+      throw UserError(where(),
+                      place == bytes.size() ? "the PGM image ends before " + what
+                                            : what + " of the PGM image is no number",
+                      image_remedy);
     return result;
   }
 
@@ -219,10 +221,11 @@ read_pgm(const std::string &bytes, const std::string &name)
       labels[k] = is_text               ? numbers.next("a pixel")
                   : bytes_of_label == 1 ? content[k]
                                         : 256u * content[2 * k] + content[2 * k + 1];
-      require(labels[k] <= largest, is_text ? numbers.where() : name,
-              "a pixel of the PGM image is " + std::to_string(labels[k])
-                + ", its largest value should be " + std::to_string(largest),
-              image_remedy);
+      if (labels[k] > largest)
+        throw UserError(is_text ? numbers.where() : name,
+                        "a pixel of the PGM image is " + std::to_string(labels[k])
+                          + ", its largest value should be " + std::to_string(largest),
+                        image_remedy);
     }
   return LabelImage({{static_cast<int>(width), static_cast<int>(height)}}, std::move(labels));
 }

@@ -56,13 +56,13 @@ surface_bytes(const std::string &file)
   return read_bytes(file, largest_surface_file, file, "check the path", "triangles");
 }
 
-/** The surface of a file, in units of length. */
+/** The surface of the bytes of a file, in units of length. */
 template <int dim>
 std::shared_ptr<const ClosedSurface>
-read_surface(const ShapeParameters<dim> &p)
+surface_of(const ShapeParameters<dim> &p, const std::string &bytes)
 {
   const std::string &file  = p.text("File");
-  TriangleSoup       soup  = TriangleSoup::read(surface_bytes(file), file);
+  TriangleSoup       soup  = TriangleSoup::read(bytes, file);
   const double       scale = p.number("Scale");
   for (Point<3> &x : soup.points)
     if (!std::isnan(scale))
@@ -106,13 +106,20 @@ outline(const ShapeParameters<dim> &p, const ClosedSurface &surface)
 
 template <int dim>
 ShapePointer<dim>
-make_surface(const ShapeParameters<dim> &p)
+shape_of(const ShapeParameters<dim> &p, const std::string &bytes)
 {
-  const auto surface = read_surface(p);
+  const auto surface = surface_of(p, bytes);
   if constexpr (dim == 2)
     return std::make_unique<OutlineShape>(outline(p, *surface));
   else
     return std::make_unique<SurfaceShape>(surface);
+}
+
+template <int dim>
+ShapePointer<dim>
+make_surface(const ShapeParameters<dim> &p)
+{
+  return shape_of(p, surface_bytes(p.text("File")));
 }
 
 template <int dim>
@@ -124,8 +131,9 @@ check_surface(const ShapeParameters<dim> &p, const ParameterSection &section)
     return;
   try
     {
-      if (declare_checksum(section, file, surface_bytes(file)))
-        make_surface(p);
+      const std::string bytes = surface_bytes(file);
+      if (declare_checksum(section, file, bytes))
+        shape_of(p, bytes);
     }
   catch (const UserError &error)
     {

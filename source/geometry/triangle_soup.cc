@@ -2,6 +2,7 @@
 #include <scree/geometry/triangle_soup.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -20,16 +21,12 @@ const std::string surface_remedy = "write the surface anew, as STL or OBJ";
 class GrowingSoup
 {
 public:
-  explicit GrowingSoup(const std::string &name)
-      : name(name)
+  /** The number of a point of finite coordinates. @param where tells its place in the file */
+  template <typename Where>
+  std::size_t corner(const std::array<double, 3> &x, const Where &where)
   {
-  }
-
-  /** The number of a point of finite coordinates. */
-  std::size_t corner(const std::array<double, 3> &x, const std::string &where)
-  {
-    require(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]), where,
-            "a coordinate is no finite number", surface_remedy);
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+      throw UserError(where(), "a coordinate is no finite number", surface_remedy);
     const auto [known, is_new] = numbers.emplace(x, soup.points.size());
     if (is_new)
       soup.points.emplace_back(x[0], x[1], x[2]);
@@ -37,7 +34,6 @@ public:
   }
 
   TriangleSoup soup;
-  std::string  name;
 
 private:
   std::map<std::array<double, 3>, std::size_t> numbers;
@@ -46,7 +42,7 @@ private:
 TriangleSoup
 read_binary_stl(const std::string &bytes, const std::string &name, const std::size_t n)
 {
-  GrowingSoup           growing(name);
+  GrowingSoup           growing;
   constexpr std::size_t n_header = 84, n_record = 50, n_normal = 12;
   for (std::size_t t = 0; t < n; ++t)
     {
@@ -56,7 +52,7 @@ read_binary_stl(const std::string &bytes, const std::string &name, const std::si
       TriangleSoup::Triangle triangle;
       for (unsigned int c = 0; c < 3; ++c)
         triangle[c] = growing.corner({{numbers[3 * c], numbers[3 * c + 1], numbers[3 * c + 2]}},
-                                     name + ", facet " + std::to_string(t + 1));
+                                     [&]() { return name + ", facet " + std::to_string(t + 1); });
       growing.soup.triangles.push_back(triangle);
     }
   return growing.soup;
@@ -101,8 +97,8 @@ public:
     const std::string word   = next();
     char             *end    = nullptr;
     const double      result = std::strtod(word.c_str(), &end);
-    require(!word.empty() && *end == '\0', where(), "'" + word.substr(0, 40) + "' is no number",
-            surface_remedy);
+    if (word.empty() || *end != '\0')
+      throw UserError(where(), "'" + word.substr(0, 40) + "' is no number", surface_remedy);
     return result;
   }
 
@@ -125,7 +121,7 @@ private:
 TriangleSoup
 read_text_stl(const std::string &bytes, const std::string &name)
 {
-  GrowingSoup              growing(name);
+  GrowingSoup              growing;
   Words                    words(bytes, name);
   std::vector<std::size_t> corners;
   for (std::string word = words.next(); !word.empty(); word = words.next())
@@ -136,45 +132,46 @@ read_text_stl(const std::string &bytes, const std::string &name)
         std::array<double, 3> x;
         for (double &coordinate : x)
           coordinate = words.number();
-        corners.push_back(growing.corner(x, words.where()));
+        corners.push_back(growing.corner(x, [&]() { return words.where(); }));
       }
     else if (word == "endfacet")
       {
-        require(corners.size() == 3, words.where(),
-                "a facet has " + std::to_string(corners.size()) + " vertices, not 3",
-                surface_remedy);
+        if (corners.size() != 3)
+          throw UserError(words.where(),
+                          "a facet has " + std::to_string(corners.size()) + " vertices, not 3",
+                          surface_remedy);
         growing.soup.triangles.push_back({{corners[0], corners[1], corners[2]}});
         corners.clear();
       }
     else if (word == "facet")
       words.skip_line();
-    else
-      require(word == "outer" || word == "loop" || word == "endloop", words.where(),
-              "'" + word.substr(0, 40) + "' is no word of an STL file", surface_remedy);
+    else if (word != "outer" && word != "loop" && word != "endloop")
+      throw UserError(words.where(), "'" + word.substr(0, 40) + "' is no word of an STL file",
+                      surface_remedy);
   require(corners.empty(), words.where(), "the file ends within a facet", surface_remedy);
   return growing.soup;
 }
 
 /** The vertex that a corner of an OBJ file names, "3", "-1" or "3/1/2". */
 std::size_t
-vertex_of(const std::string &word, const std::size_t n_vertices, const std::string &where)
+vertex_of(const std::string &word, const std::size_t n_vertices, const Words &words)
 {
   char      *end    = nullptr;
   const long number = std::strtol(word.c_str(), &end, 10);
   const long vertex = number < 0 ? static_cast<long>(n_vertices) + number : number - 1;
-  require(end != word.c_str() && (*end == '\0' || *end == '/') && vertex >= 0
-            && static_cast<std::size_t>(vertex) < n_vertices,
-          where,
-          "'" + word.substr(0, 40) + "' names none of the " + std::to_string(n_vertices)
-            + " vertices before it",
-          surface_remedy);
+  if (end == word.c_str() || (*end != '\0' && *end != '/') || vertex < 0
+      || static_cast<std::size_t>(vertex) >= n_vertices)
+    throw UserError(words.where(),
+                    "'" + word.substr(0, 40) + "' names none of the " + std::to_string(n_vertices)
+                      + " vertices before it",
+                    surface_remedy);
   return vertex;
 }
 
 TriangleSoup
 read_obj(const std::string &bytes, const std::string &name)
 {
-  GrowingSoup              growing(name);
+  GrowingSoup              growing;
   Words                    words(bytes, name);
   std::vector<std::size_t> vertices; // their points
   for (std::string word = words.next(); !word.empty(); word = words.next())
@@ -184,15 +181,15 @@ read_obj(const std::string &bytes, const std::string &name)
           std::array<double, 3> x;
           for (double &coordinate : x)
             coordinate = words.number();
-          vertices.push_back(growing.corner(x, words.where()));
+          vertices.push_back(growing.corner(x, [&]() { return words.where(); }));
         }
       else if (word == "f")
         {
           std::vector<std::size_t> face;
           while (words.line_goes_on())
-            face.push_back(vertices[vertex_of(words.next(), vertices.size(), words.where())]);
-          require(face.size() >= 3, words.where(), "a face has fewer than 3 corners",
-                  surface_remedy);
+            face.push_back(vertices[vertex_of(words.next(), vertices.size(), words)]);
+          if (face.size() < 3)
+            throw UserError(words.where(), "a face has fewer than 3 corners", surface_remedy);
           for (std::size_t i = 2; i < face.size(); ++i)
             growing.soup.triangles.push_back({{face[0], face[i - 1], face[i]}});
         }
@@ -201,11 +198,6 @@ read_obj(const std::string &bytes, const std::string &name)
   return growing.soup;
 }
 
-bool
-ends_with(const std::string &text, const std::string &end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 } // namespace
 
 TriangleSoup
@@ -216,7 +208,7 @@ TriangleSoup::read(const std::string &bytes, const std::string &name)
   if (bytes.size() >= n_header)
     std::memcpy(&n_told, bytes.data() + 80, sizeof n_told);
   TriangleSoup soup;
-  if (ends_with(name, ".obj") || ends_with(name, ".OBJ"))
+  if (boost::algorithm::ends_with(name, ".obj") || boost::algorithm::ends_with(name, ".OBJ"))
     soup = read_obj(bytes, name);
   else if (bytes.size() >= n_header && bytes.size() == n_header + n_record * n_told)
     soup = read_binary_stl(bytes, name, n_told);

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <set>
 
@@ -15,11 +16,6 @@ namespace scree
 {
 namespace
 {
-bool
-ends_with(const std::string &text, const std::string &end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 /** Column names of a force and its moment. */
 template <int dim>
@@ -320,7 +316,8 @@ Results<dim>::write_history()
               dealii::ExcDimensionMismatch(history_row.size(), history_names.size()));
   // Only a pair without contact points has no gap.
   for (unsigned int i = 0; i < history_row.size(); ++i)
-    require(std::isfinite(history_row[i]) || ends_with(history_names[i], ".minimum_gap"),
+    require(std::isfinite(history_row[i])
+              || boost::algorithm::ends_with(history_names[i], ".minimum_gap"),
             directory + "/history.csv",
             "after the step to time " + short_number(history_row[0]) + ", which converged, '"
               + history_names[i] + "' is no finite number",

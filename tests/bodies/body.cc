@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -41,21 +43,7 @@ disc(const std::string &name, const double x, const double radius)
 std::string
 message(const std::string &text)
 {
-  try
-    {
-      bodies(text);
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { bodies(text); });
 }
 
 TEST(Bodies, LevelSetsAndBoxes)

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <random>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -68,21 +70,7 @@ template <int dim>
 std::string
 message(const std::string &text)
 {
-  try
-    {
-      parameters<dim>(text);
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { parameters<dim>(text); });
 }
 
 template <int dim>

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -25,21 +27,7 @@ contact(const std::string &text)
 std::string
 message(const std::string &text)
 {
-  try
-    {
-      contact(text);
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { contact(text); });
 }
 
 TEST(ContactParameters, FrictionlessWithoutLaws)

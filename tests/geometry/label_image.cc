@@ -11,6 +11,8 @@
 #include <png.h>
 #include <random>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -51,21 +53,7 @@ image_of(const int width, const int height, const std::function<Label(const Poin
 std::string
 message(const std::string &bytes)
 {
-  try
-    {
-      LabelImage::read(bytes, "stones");
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { LabelImage::read(bytes, "stones"); });
 }
 
 void

@@ -9,6 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -32,21 +34,7 @@ template <int dim>
 std::string
 message(const std::string &text)
 {
-  try
-    {
-      shape<dim>(text);
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { shape<dim>(text); });
 }
 
 TEST(ShapeParameters, MakeEachType)

@@ -14,6 +14,8 @@
 #include <random>
 #include <sstream>
 
+#include "../messages.h"
+
 namespace scree
 {
 namespace
@@ -113,35 +115,13 @@ obj(const TriangleSoup &soup)
 std::string
 message(const TriangleSoup &soup)
 {
-  try
-    {
-      ClosedSurface(soup, "sand.stl");
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
+  return complaint([&]() { ClosedSurface(soup, "sand.stl"); });
 }
 
 std::string
 message(const std::string &bytes, const std::string &name)
 {
-  try
-    {
-      TriangleSoup::read(bytes, name);
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+  return complaint([&]() { TriangleSoup::read(bytes, name); });
 }
 
 TEST(TriangleSoup, ReadsEachKind)
@@ -309,17 +289,7 @@ TEST(SurfaceShape, IsReadFromParameters)
     file.check();
     return make_shape(parameters);
   };
-  const auto told = [&](const std::string &lines) -> std::string {
-    try
-      {
-        shape_of(lines);
-      }
-    catch (const UserError &error)
-      {
-        return error.what();
-      }
-    return "";
-  };
+  const auto told = [&](const std::string &lines) { return complaint([&]() { shape_of(lines); }); };
   const auto shape
     = shape_of("set Scale = 2\nset Section plane = x = 1\nset Translation = 10, 20\n");
   EXPECT_NEAR(shape->signed_distance({10, 20}), -std::sqrt(3.), 0.012);

@@ -13,6 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "../messages.h"
+
 using namespace scree;
 
 namespace
@@ -29,31 +31,10 @@ level(ParameterFile file)
   return result;
 }
 
-template <typename F>
-std::string
-complaint(const F &read)
-{
-  try
-    {
-      read();
-    }
-  catch (const UserError &error)
-    {
-      return error.what();
-    }
-  return "";
-}
-
 std::string
 complaint_of_text(const std::string &text)
 {
   return complaint([&]() { ParameterFile::from_string(text); });
-}
-
-void
-expect_contains(const std::string &text, const std::string &part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
 }
 
 std::string
