@@ -9,7 +9,8 @@ from .recovery import recovered
 from .style import COLOURS, RIGID, figure_for, nice_number_below, save, short
 from .surface import draw_section, draw_surface
 
-LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement"}
+LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement",
+          "plastic_strain": "equivalent plastic strain"}
 
 
 def outline(mesh):
@@ -113,6 +114,13 @@ def automatic_warp(mesh, contact):
     return nice_number_below(max(warp, 1.0))
 
 
+def quantity_of(field):
+    """What a field measures, for its unit."""
+    if field.startswith("displacement"):
+        return "length"
+    return "stress" if field.startswith(("stress", "von_mises", "principal_stress", "strain_energy")) else ""
+
+
 class BodyPicture:
     """The deformed bodies of one step, coloured by a field: where they are drawn, the values, and their range."""
 
@@ -159,12 +167,22 @@ class BodyPicture:
         if not self.shown.any():
             return
         low, high = colours.get_clim()
-        quantity = "length" if self.field.startswith("displacement") else "" if self.field == "body" else "stress"
-        label = self.run.units.label(LABELS.get(self.field, self.field.replace("_", " ")), quantity)
+        label = self.run.units.label(LABELS.get(self.field, self.field.replace("_", " ")), quantity_of(self.field))
         bar = figure.colorbar(colours, ax=axes, label=label, extend=extend(self.extremes, low, high), shrink=0.85, pad=0.02)
         bar.ax.set_title(f"max {short(self.extremes[1])}", fontsize=9)
         if self.extremes[0] < 0.0:
             bar.ax.set_xlabel(f"min {short(self.extremes[0])}", fontsize=9)
+
+
+def default_fields(run, step):
+    """Von Mises stress and, where something flows, plastic strain; the displacement if neither was written."""
+    if not run.body_files:
+        return []
+    mesh = run.mesh(run.chosen_step(run.body_files, step))
+    fields = [name for name in ("von_mises", "plastic_strain") if name in mesh.fields]
+    if "plastic_strain" in fields and not mesh.fields["plastic_strain"].any():
+        fields.remove("plastic_strain")
+    return fields or ["displacement_magnitude"]
 
 
 def limits(values):

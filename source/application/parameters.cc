@@ -52,9 +52,13 @@ OutputParameters<dim>::declare(ParameterSection &section)
 {
   section.entry("Fields every", fields_every,
                 "The bodies are written as VTU after every so many load steps; 0: never.");
+  fields.declare(section);
   section.entry("Contact every", contact_every,
                 "The contact surface is written as CSV and VTU after every so many load steps; 0: "
                 "never.");
+  section.entry("Points every", points_every,
+                "The material points of a moving geometry are written as VTU after every so many "
+                "load steps; 0: never.");
   section.entry("Log iterations", log_iterations, "Write a line per Newton iteration to the log.");
   section.entry("Checkpoint minutes", checkpoint_minutes, dealii::Patterns::Double(0.),
                 "What scree --resume needs is written after a step that ends so many minutes of "
@@ -79,6 +83,8 @@ check_units(const std::string &units, ParameterSection &root)
   if (!units.empty() && split_list(units, ',').size() != 3)
     root.error("Units", "'" + units + "' are not three names",
                "give those of length, stress and force, as in mm, MPa, N");
+  if (units.find_first_of("&<\"") != std::string::npos)
+    root.error("Units", "a name of a unit has none of the characters & < \"", "");
 }
 
 /** The first body whose law needs a moving geometry, and what is to be said of it. */
@@ -105,7 +111,8 @@ struct ImpossibleCombination
 template <int dim>
 void
 check_combinations(const Parameters<dim> &p, const ParameterSection &discretization,
-                   const ParameterSection &moving, const ParameterSection &study)
+                   const ParameterSection &moving, const ParameterSection &output,
+                   const ParameterSection &study)
 {
   const std::string           law          = law_that_moves(p);
   const unsigned int          n_gauss      = p.discretization.gauss_points().bulk;
@@ -117,6 +124,9 @@ check_combinations(const Parameters<dim> &p, const ParameterSection &discretizat
         "set at least " + std::to_string(least_points) + ", or 0"},
        {!p.moving.is_moving && !law.empty(), moving, "Update", law,
         "set Update = every step, or choose Law = linear elastic"},
+       {!p.moving.is_moving && p.output.points_every > 0, output, "Points every",
+        "a geometry that stays has no material points",
+        "set Moving geometry/Update = every step, or Points every = 0"},
        {p.moving.is_moving && p.study.n_cycles > 1 && p.study.strategy == StudyStrategy::adaptive,
         study, "Strategy", "the error estimate needs a geometry that stays",
         "set Strategy = uniform, or Moving geometry/Update = none"}};
@@ -151,9 +161,12 @@ Parameters<dim>::declare(ParameterFile &file)
 {
   ParameterSection root = file.root();
   root.entry("Title", title, "A title for logs and plots.");
-  root.entry("Units", units,
-             "Names of the units of length, stress and force, as labels of pictures: mm, MPa, N.");
+  root.entry(
+    "Units", units,
+    "Names of the units of length, stress and force, as labels of pictures and in VTU files: "
+    "mm, MPa, N.");
   check_units(units, root);
+  output.fields.units = split_list(units, ',');
 
   ParameterSection grid_section = root.subsection("Grid", "The background grid.");
   grid.declare(grid_section);
@@ -198,7 +211,7 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection study_section = root.subsection(
     "Refinement study", "The same problem on finer and finer grids, and how results converge.");
   study.declare(study_section, grid);
-  check_combinations(*this, discretization_section, moving_section, study_section);
+  check_combinations(*this, discretization_section, moving_section, output_section, study_section);
 }
 
 template struct OutputParameters<2>;

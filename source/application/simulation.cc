@@ -22,7 +22,8 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
     , step_control(parameters.time)
     , model(this->parameters, step_control.step_size(), communicator, run_log)
     , stepper(stepper_of(this->parameters, step_control, model, run_log))
-    , results(directory, model.state().bodies, parameters.output.probes, model.pairs_change())
+    , results(directory, model.state().bodies, parameters.output.probes, parameters.output.fields,
+              model.pairs_change())
     , saver(this->parameters.output, directory, communicator, run_log,
             [this]() { return collect(); })
 {
@@ -92,7 +93,7 @@ void
 Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
   step_control.accept(attempt.record.newton_iterations);
-  write_results(attempt.record);
+  write_results(attempt);
   const double done = step_control.time() / parameters.time.end_time;
   report.step(attempt.record, model.problem().contact(), communicator, done,
               wall_time * (1. - done) / (done - fraction_at_restart));
@@ -127,8 +128,9 @@ Simulation<dim>::try_again(const Attempt<dim> &attempt)
 
 template <int dim>
 void
-Simulation<dim>::write_results(const StepRecord &record)
+Simulation<dim>::write_results(const Attempt<dim> &attempt)
 {
+  const StepRecord           &record = attempt.record;
   const Timings::Scope        scope(run_log.timings, "output");
   const DiscreteProblem<dim> &problem = model.problem();
   const auto                 &u       = model.state().displacement;
@@ -151,6 +153,8 @@ Simulation<dim>::write_results(const StepRecord &record)
     }
   if (is_due(parameters.output.contact_every))
     is_written &= results.write_contact(record, problem.contact());
+  if (is_due(parameters.output.points_every))
+    is_written &= results.write_points(record, attempt.points, problem.mass != nullptr);
   if (!is_written)
     run_log.log.line("Warning: pictures of this step cannot be written (is the disk full?)");
 }

@@ -1,3 +1,5 @@
+#include <scree/material/increment_response.h>
+#include <scree/material/logarithmic_strain.h>
 #include <scree/mechanics/incremental_bulk.h>
 
 #include <deal.II/base/mpi.h>
@@ -255,15 +257,20 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
               dealii::ArrayView<const IncrementStart>(&at_start, 1),
               dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
   BulkSample<dim> result;
-  result.displacement = u_n.value(point) + displacement;
-  // Green's strain
-  const dealii::Tensor<2, dim> F = F_D * history.deformation_gradient;
-  result.strain = 0.5 * (symmetrize(transpose(F) * F) - dealii::unit_symmetric_tensor<dim>());
+  result.displacement                  = u_n.value(point) + displacement;
+  const dealii::Tensor<2, 3> F         = embed<dim>(projected * history.deformation_gradient);
+  const dealii::Tensor<2, 3> logarithm = LogarithmicStrain(eigensystem(F * transpose(F))).value();
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
-      result.stress[i][j] = response.cauchy[i][j];
+      {
+        result.strain[i][j] = logarithm[i][j];
+        result.stress[i][j] = response.cauchy[i][j];
+      }
   if (dim == 2)
     result.out_of_plane_stress = response.cauchy[2][2];
+  result.plastic_strain = response.alpha;
+  result.energy_density = response.energy;
+  result.volume_ratio   = determinant(F);
   return result;
 }
 

@@ -162,6 +162,8 @@ LinearBulk<dim>::sample(const unsigned int active_cell, const dealii::Point<dim>
   result.stress = body.material->stress(result.strain);
   if (dim == 2)
     result.out_of_plane_stress = body.material->out_of_plane_stress(result.strain);
+  result.energy_density = body.material->energy_density(result.strain);
+  result.volume_ratio   = 1. + trace(result.strain);
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include <scree/discretization/cell_cut.h>
 #include <scree/output/body_output.h>
-#include <scree/output/column_names.h>
 #include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -9,7 +8,6 @@
 #include <deal.II/numerics/data_component_interpretation.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -145,87 +143,36 @@ clip_box(const std::vector<dealii::Point<dim>> &corners, const std::vector<doubl
   return simplices;
 }
 
-/** Names of the fields, one per row of a patch. */
-template <int dim>
-std::vector<std::string>
-field_names(const bool with_velocity)
-{
-  std::vector<std::string> names(dim, "displacement");
-  if (with_velocity)
-    names.insert(names.end(), dim, "velocity");
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      names.push_back("stress_" + axes[i] + axes[j]);
-  if (dim == 2)
-    names.push_back("stress_zz");
-  names.push_back("von_mises");
-  for (unsigned int d = 0; d < dim; ++d)
-    names.push_back("principal_stress_" + std::to_string(d + 1));
-  names.push_back("body");
-  return names;
-}
-
-/** What is known at a vertex. */
-template <int dim>
-struct VertexSample
-{
-  BulkSample<dim>        bulk;
-  dealii::Tensor<1, dim> velocity;
-};
-
 /** A piece with the given vertices and what is known there. */
 template <int dim>
 dealii::DataOutBase::Patch<dim, dim>
-make_patch(const std::vector<dealii::Point<dim>> &vertices, const unsigned int body,
-           const std::vector<VertexSample<dim>> &samples, const bool with_velocity)
+make_patch(const std::vector<dealii::Point<dim>> &vertices,
+           const std::vector<VertexSample<dim>> &samples, const BodyFields<dim> &fields)
 {
   dealii::DataOutBase::Patch<dim, dim> patch;
   patch.reference_cell = vertices.size() == dim + 1 ? dealii::ReferenceCells::get_simplex<dim>()
                                                     : dealii::ReferenceCells::get_hypercube<dim>();
   patch.n_subdivisions = 1;
-  patch.data.reinit(field_names<dim>(with_velocity).size(), vertices.size());
   for (unsigned int v = 0; v < vertices.size(); ++v)
     {
-      patch.vertices[v]            = vertices[v];
-      const BulkSample<dim> &found = samples[v].bulk;
-      unsigned int           row   = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        patch.data(row++, v) = found.displacement[d];
-      for (unsigned int d = 0; d < dim && with_velocity; ++d)
-        patch.data(row++, v) = samples[v].velocity[d];
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          patch.data(row++, v) = found.stress[i][j];
-      if (dim == 2)
-        patch.data(row++, v) = found.out_of_plane_stress;
-      patch.data(row++, v) = von_mises(found.stress, found.out_of_plane_stress);
-      for (const double principal : eigenvalues(found.stress))
-        patch.data(row++, v) = principal;
-      patch.data(row++, v) = body;
+      const std::vector<double> values = fields.values(samples[v]);
+      if (v == 0)
+        patch.data.reinit(values.size(), vertices.size());
+      patch.vertices[v] = vertices[v];
+      for (unsigned int row = 0; row < values.size(); ++row)
+        patch.data(row, v) = values[row];
     }
   return patch;
 }
 } // namespace
 
 template <int dim>
-double
-von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz)
-{
-  dealii::SymmetricTensor<2, 3> full;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      full[i][j] = stress[i][j];
-  if (dim == 2)
-    full[2][2] = zz;
-  return std::sqrt(1.5) * deviator(full).norm();
-}
-
-template <int dim>
 BodyOutput<dim>::BodyOutput(const DisplacementSpace<dim> &space,
                             const LevelSetNodes<dim>     &level_set_nodes,
-                            const std::vector<Body<dim>> &bodies)
+                            const std::vector<Body<dim>> &bodies, const FieldParameters &parameters)
     : space(space)
     , bodies(bodies)
+    , parameters(parameters)
 {
   const auto add_whole = [&](const unsigned int a) {
     Piece piece{a, {}};
@@ -361,19 +308,17 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
                        const VelocityField<dim> *velocities, const std::string &directory,
                        const unsigned int number, const double time) const
 {
-  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   const PointEvaluator<dim>      field(space, u), start = kinematics.start_displacement_field();
-  const bool                     is_moved      = kinematics.moves_bodies();
-  const bool                     with_velocity = velocities != nullptr;
+  const bool                     is_moved = kinematics.moves_bodies();
+  const BodyFields<dim>          fields(parameters, velocities != nullptr, may_flow(bodies));
   Patches<dim>                   output;
   std::vector<VertexSample<dim>> samples;
-  output.names   = field_names<dim>(with_velocity);
-  output.vectors = {{0, dim - 1, "displacement", Interpretation::component_is_part_of_vector}};
-  if (with_velocity)
-    output.vectors.emplace_back(dim, 2 * dim - 1, "velocity",
-                                Interpretation::component_is_part_of_vector);
-  const auto add = [&](const std::vector<dealii::Point<dim>> &vertices, const unsigned int body) {
-    output.patches.push_back(make_patch<dim>(vertices, body, samples, with_velocity));
+  output.names = fields.names();
+  for (const auto &[first, name] : fields.vectors())
+    output.vectors.emplace_back(first, first + dim - 1, name,
+                                dealii::DataComponentInterpretation::component_is_part_of_vector);
+  const auto add = [&](const std::vector<dealii::Point<dim>> &vertices) {
+    output.patches.push_back(make_patch<dim>(vertices, samples, fields));
     output.patches.back().patch_index = output.patches.size() - 1;
     samples.clear();
   };
@@ -385,12 +330,13 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
         {
           const PointInCell<dim> point = {piece.active_cell, vertex};
           samples.push_back({kinematics.bulk().sample(piece.active_cell, vertex, field),
-                             with_velocity ? velocities->value(point) : dealii::Tensor<1, dim>()});
+                             velocities ? velocities->value(point) : dealii::Tensor<1, dim>(),
+                             space.cells()[piece.active_cell].body});
           vertices.push_back(space.position(piece.active_cell, vertex));
           if (is_moved)
             vertices.back() += samples.back().bulk.displacement - start.value(point);
         }
-      add(vertices, space.cells()[piece.active_cell].body);
+      add(vertices);
     }
   for (const RigidPiece &piece : cut_rigid_bodies())
     {
@@ -399,25 +345,26 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
       for (const auto &vertex : piece.vertices)
         {
           samples.emplace_back();
+          samples.back().body              = piece.body;
           samples.back().bulk.displacement = pose.displacement(vertex);
           const dealii::Point<dim> moved   = vertex + samples.back().bulk.displacement;
-          if (with_velocity)
+          if (velocities)
             samples.back().velocity = velocities->value(piece.body, moved);
           vertices.push_back(is_moved ? moved : vertex);
         }
-      add(vertices, piece.body);
+      add(vertices);
     }
   dealii::DataOutBase::VtkFlags flags;
   flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  flags.physical_units    = unit_labels(parameters, fields.quantities(), dim);
   output.set_flags(flags);
   return write_vtu_files(output, directory, "bodies_" + dealii::Utilities::int_to_string(number, 4),
                          space.grid.communicator(),
                          field_datum("TimeValue", time)
-                           + field_datum("points_are_moved", is_moved ? 1. : 0.));
+                           + field_datum("points_are_moved", is_moved ? 1. : 0.)
+                           + field_data_of_names("body", bodies));
 }
 
 template class BodyOutput<2>;
 template class BodyOutput<3>;
-template double von_mises(const dealii::SymmetricTensor<2, 2> &, const double);
-template double von_mises(const dealii::SymmetricTensor<2, 3> &, const double);
 } // namespace scree

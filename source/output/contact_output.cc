@@ -1,9 +1,9 @@
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/output/column_names.h>
 #include <scree/output/contact_output.h>
+#include <scree/output/point_patches.h>
 #include <scree/output/vtu_files.h>
 
-#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/utilities.h>
@@ -178,46 +178,11 @@ write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator
   });
 }
 
-namespace
-{
-/** Points made elsewhere, written by deal.II. */
-template <int dim>
-class PointPatches : public dealii::DataOutInterface<0, dim>
-{
-public:
-  std::vector<dealii::DataOutBase::Patch<0, dim>> patches;
-  std::vector<std::string>                        names;
-
-protected:
-  const std::vector<dealii::DataOutBase::Patch<0, dim>> &get_patches() const override
-  {
-    return patches;
-  }
-  std::vector<std::string> get_dataset_names() const override
-  {
-    return names;
-  }
-  std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
-  get_nonscalar_data_ranges() const override
-  {
-    using namespace dealii::DataComponentInterpretation;
-    std::vector<std::tuple<unsigned int, unsigned int, std::string, DataComponentInterpretation>>
-      ranges;
-    for (unsigned int c = 0; c < names.size(); ++c)
-      if (c + dim <= names.size() && names[c].size() > 2
-          && names[c].substr(names[c].size() - 2) == "_x")
-        ranges.emplace_back(c, c + dim - 1, names[c].substr(0, names[c].size() - 2),
-                            component_is_part_of_vector);
-    return ranges;
-  }
-};
-} // namespace
-
 template <int dim>
 std::string
-write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator,
-                  const std::string &directory, const unsigned int number)
+write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &parameters,
+                  const MPI_Comm communicator, const std::string &directory,
+                  const unsigned int number, const double time)
 {
   PointPatches<dim> output;
   output.names = contact_columns<dim>();
@@ -227,16 +192,20 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
     {
       std::vector<double> values = columns(contact, i);
       values.erase(values.begin() + 1, values.begin() + 1 + dim);
-      dealii::DataOutBase::Patch<0, dim> patch;
-      patch.vertices[0] = contact.points()[i].position;
-      patch.patch_index = i;
-      patch.data.reinit(values.size(), 1);
-      for (unsigned int c = 0; c < values.size(); ++c)
-        patch.data(c, 0) = values[c];
-      output.patches.push_back(patch);
+      output.add(contact.points()[i].position, values);
     }
-  return write_vtu_files(output, directory,
-                         "contact_" + dealii::Utilities::int_to_string(number, 4), communicator);
+  dealii::DataOutBase::VtkFlags flags;
+  flags.physical_units = unit_labels(parameters,
+                                     {{"weight", Quantity::area},
+                                      {"gap", Quantity::length},
+                                      {"pressure", Quantity::stress},
+                                      {"tau", Quantity::stress},
+                                      {"jump", Quantity::length}},
+                                     dim);
+  output.set_flags(flags);
+  return write_vtu_files(
+    output, directory, "contact_" + dealii::Utilities::int_to_string(number, 4), communicator,
+    field_datum("TimeValue", time) + field_data_of_names("pair", contact.pairs()));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
@@ -247,8 +216,9 @@ write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator
                                                               const MPI_Comm);                     \
   template bool write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \
                                   const unsigned int);                                             \
-  template std::string write_contact_vtu(const ContactPoints<dim> &, const MPI_Comm,               \
-                                         const std::string &, const unsigned int);
+  template std::string write_contact_vtu(const ContactPoints<dim> &, const FieldParameters &,      \
+                                         const MPI_Comm, const std::string &, const unsigned int,  \
+                                         const double);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

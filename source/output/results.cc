@@ -1,6 +1,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/log.h>
 #include <scree/output/column_names.h>
+#include <scree/output/point_output.h>
 #include <scree/output/results.h>
 #include <scree/output/vtu_files.h>
 
@@ -16,26 +17,6 @@ namespace scree
 {
 namespace
 {
-
-/** Column names of a force and its moment. */
-template <int dim>
-void
-add_resultant_names(const std::string &prefix, std::vector<std::string> &names)
-{
-  add_vector_names<dim>(prefix + ".force", names);
-  add_axial_names<dim>(prefix + ".moment", names);
-}
-
-/** Column names of where a rigid body is and what drives it. */
-template <int dim>
-void
-add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
-{
-  add_vector_names<dim>(prefix + ".displacement", names);
-  add_axial_names<dim>(prefix + ".rotation", names);
-  add_resultant_names<dim>(prefix, names);
-}
-
 template <int dim>
 std::vector<std::string>
 pair_columns(const std::vector<ContactPair> &pairs)
@@ -88,10 +69,12 @@ add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &m
 
 template <int dim>
 Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
-                      const std::vector<ProbeParameters<dim>> &probes, const bool pairs_change)
+                      const std::vector<ProbeParameters<dim>> &probes,
+                      const FieldParameters &fields, const bool pairs_change)
     : directory(directory)
     , bodies(bodies)
     , probes(probes)
+    , fields(fields)
     , pairs_change(pairs_change)
     , long_tables(directory, bodies)
 {
@@ -338,7 +321,7 @@ Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kine
                            const Vector &ghosted_u, const VelocityField<dim> *velocities)
 {
   if (!body_output)
-    body_output = std::make_unique<BodyOutput<dim>>(*space, *nodes, bodies);
+    body_output = std::make_unique<BodyOutput<dim>>(*space, *nodes, bodies, fields);
   bool is_written = add_picture(
     record.time,
     body_output->write(kinematics, ghosted_u, velocities, directory, record.step, record.time),
@@ -364,9 +347,23 @@ Results<dim>::write_contact(const StepRecord &record, const ContactPoints<dim> &
 {
   const MPI_Comm communicator = space->grid.communicator();
   const bool     is_written   = write_contact_csv(contact, communicator, directory, record.step);
-  return add_picture(record.time, write_contact_vtu(contact, communicator, directory, record.step),
-                     "contact.pvd", contact_records)
+  return add_picture(
+           record.time,
+           write_contact_vtu(contact, fields, communicator, directory, record.step, record.time),
+           "contact.pvd", contact_records)
          && is_written;
+}
+
+template <int dim>
+bool
+Results<dim>::write_points(const StepRecord &record, const MaterialPoints<dim> &points,
+                           const bool has_inertia)
+{
+  return add_picture(record.time,
+                     write_points_vtu(points, bodies, fields, has_inertia,
+                                      space->grid.communicator(), directory, record.step,
+                                      record.time),
+                     "points.pvd", point_records);
 }
 
 template <int dim>
@@ -420,8 +417,12 @@ template <int dim>
 ResultsRecord
 Results<dim>::record() const
 {
-  return {body_records, contact_records, history ? history->n_rows() : 0,
-          probe_table ? probe_table->n_rows() : 0, long_tables.record()};
+  return {body_records,
+          contact_records,
+          point_records,
+          history ? history->n_rows() : 0,
+          probe_table ? probe_table->n_rows() : 0,
+          long_tables.record()};
 }
 
 template <int dim>
@@ -431,6 +432,7 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
 {
   body_records    = record.bodies;
   contact_records = record.contact;
+  point_records   = record.points;
   if (!is_first)
     return;
   const auto names = history_columns(equilibrium, contact);
@@ -446,6 +448,8 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
     write_pvd("bodies.pvd", body_records);
   if (!contact_records.empty())
     write_pvd("contact.pvd", contact_records);
+  if (!point_records.empty())
+    write_pvd("points.pvd", point_records);
 }
 
 template <int dim>

@@ -5,6 +5,7 @@
 #include <scree/grid/background_grid.h>
 #include <scree/mechanics/moving_geometry_parameters.h>
 #include <scree/mechanics/time_scheme_parameters.h>
+#include <scree/output/field_parameters.h>
 #include <scree/output/probes.h>
 #include <scree/parameters/file.h>
 #include <scree/solver/linear_solver.h>
@@ -21,11 +22,13 @@ namespace scree
 template <int dim>
 struct OutputParameters
 {
-  unsigned int fields_every       = 1;     //!< VTU of the bodies, 0: never
-  unsigned int contact_every      = 1;     //!< CSV and VTU of contact, 0: never
-  bool         log_iterations     = false; //!< a line in the log per Newton iteration
-  unsigned int checkpoint_every   = 10;    //!< steps, 0: not by steps
-  double       checkpoint_minutes = 10.;   //!< wall time, 0: not by time
+  unsigned int    fields_every       = 1;     //!< VTU of the bodies, 0: never
+  unsigned int    contact_every      = 1;     //!< CSV and VTU of contact, 0: never
+  unsigned int    points_every       = 0;     //!< VTU of the material points, 0: never
+  bool            log_iterations     = false; //!< a line in the log per Newton iteration
+  unsigned int    checkpoint_every   = 10;    //!< steps, 0: not by steps
+  double          checkpoint_minutes = 10.;   //!< wall time, 0: not by time
+  FieldParameters fields;
   std::vector<ProbeParameters<dim>> probes;
 
   void declare(ParameterSection &section);

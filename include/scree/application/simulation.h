@@ -59,7 +59,7 @@ private:
   void finish_step(Attempt<dim> &attempt, const double wall_time);
   /** Prepares another attempt of a step: in another way, or of a shorter step. */
   void try_again(const Attempt<dim> &attempt);
-  void write_results(const StepRecord &record);
+  void write_results(const Attempt<dim> &attempt);
   void save_if_due();
   /** Saves and @throws Interrupted if a signal asked for it (collective). */
   void end_if_interrupted();

@@ -19,9 +19,12 @@ template <int dim>
 struct BulkSample
 {
   dealii::Tensor<1, dim>          displacement;
-  dealii::SymmetricTensor<2, dim> strain;
+  dealii::SymmetricTensor<2, dim> strain; //!< small or logarithmic, as Bulk::sample() says
   dealii::SymmetricTensor<2, dim> stress;
   double                          out_of_plane_stress = 0.; //!< sigma_zz of plane strain, 2D only
+  double                          plastic_strain      = 0.; //!< equivalent, since the start
+  double                          energy_density      = 0.; //!< stored, per initial volume [F/L^2]
+  double                          volume_ratio        = 1.; //!< of present to initial volume
 };
 
 /**

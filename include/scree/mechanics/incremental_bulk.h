@@ -42,7 +42,7 @@ public:
 
   Work work(const PointEvaluator<dim> &u) const override;
 
-  /** The displacement is u_n + u, the strain Green's. */
+  /** The displacement is u_n + u, the strain ln V of F = V R with the projected volume change. */
   BulkSample<dim> sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                          const PointEvaluator<dim> &u) const override;
 

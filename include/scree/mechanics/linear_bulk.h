@@ -27,6 +27,7 @@ public:
 
   Work work(const PointEvaluator<dim> &u) const override;
 
+  /** The strain is the small one, sym(grad u) with the projected divergence, J = 1 + div u. */
   BulkSample<dim> sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                          const PointEvaluator<dim> &u) const override;
 

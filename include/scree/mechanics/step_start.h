@@ -89,7 +89,8 @@ public:
    * Entries of MaterialPoints::internal: six of the internal tensor, alpha, six of the deviator of
    * the elastic strain (of ln b_e at finite strain).
    */
-  static constexpr unsigned int n_internal = 13;
+  static constexpr unsigned int n_internal     = 13;
+  static constexpr unsigned int index_of_alpha = 6;
   /** Whether some law needs them. */
   static bool needs_internal(const std::vector<Body<dim>> &bodies);
 

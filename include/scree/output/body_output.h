@@ -2,6 +2,7 @@
 
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/velocity_field.h>
+#include <scree/output/body_fields.h>
 
 #include <string>
 #include <vector>
@@ -10,19 +11,18 @@ namespace scree
 {
 /**
  * Writes the bodies as VTU (with PVTU record on several processes): only the physical part of cut
- * cells, as triangles or tetrahedra of the contour's linear interpolation, with body number,
- * displacement, with inertia velocity, stress, von Mises and principal stresses. On a fixed
- * geometry they are undeformed (ParaView: Warp By Vector), on a moving one they are where they are
- * at the end of the step: the field datum points_are_moved is 0 or 1, TimeValue the time. Rigid
- * bodies come whole, from a coarse lattice with exact edges and corners, without stress; the first
- * process writes them.
+ * cells, as triangles or tetrahedra of the contour's linear interpolation, with BodyFields. On a
+ * fixed geometry they are undeformed (ParaView: Warp By Vector), on a moving one they are where
+ * they are at the end of the step: the field datum points_are_moved is 0 or 1, TimeValue the time,
+ * body.NAME the number of each body. Rigid bodies come whole, from a coarse lattice with
+ * exact edges and corners, without stress; the first process writes them.
  */
 template <int dim>
 class BodyOutput
 {
 public:
   BodyOutput(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
-             const std::vector<Body<dim>> &bodies);
+             const std::vector<Body<dim>> &bodies, const FieldParameters &parameters = {});
 
   /**
    * Writes DIR/bodies_NNNN.vtu or .pvtu of a time, see write_vtu_files(). `u` is ghosted.
@@ -69,10 +69,7 @@ private:
 
   const DisplacementSpace<dim> &space;
   const std::vector<Body<dim>> &bodies;
+  const FieldParameters         parameters;
   std::vector<Piece>            body_pieces;
 };
-
-/** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
-template <int dim>
-double von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz);
 } // namespace scree

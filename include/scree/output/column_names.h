@@ -24,4 +24,23 @@ add_axial_names(const std::string &prefix, std::vector<std::string> &names)
   for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
     names.push_back(prefix + "_" + axes[d]);
 }
+
+/** Column names of a force and its moment. */
+template <int dim>
+void
+add_resultant_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  add_vector_names<dim>(prefix + ".force", names);
+  add_axial_names<dim>(prefix + ".moment", names);
+}
+
+/** Column names of where a rigid body is and what drives it. */
+template <int dim>
+void
+add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  add_vector_names<dim>(prefix + ".displacement", names);
+  add_axial_names<dim>(prefix + ".rotation", names);
+  add_resultant_names<dim>(prefix, names);
+}
 } // namespace scree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_points.h>
+#include <scree/output/field_parameters.h>
 
 #include <string>
 #include <vector>
@@ -54,8 +55,12 @@ template <int dim>
 bool write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                        const std::string &directory, const unsigned int number);
 
-/** Writes the same as points to DIR/contact_NNNN.vtu or .pvtu, see write_vtu_files(). */
+/**
+ * Writes the same as points to DIR/contact_NNNN.vtu or .pvtu, see write_vtu_files(), with the field
+ * data TimeValue and pair.NAME, the number of each pair.
+ */
 template <int dim>
-std::string write_contact_vtu(const ContactPoints<dim> &contact, const MPI_Comm communicator,
-                              const std::string &directory, const unsigned int number);
+std::string write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &parameters,
+                              const MPI_Comm communicator, const std::string &directory,
+                              const unsigned int number, const double time);
 } // namespace scree

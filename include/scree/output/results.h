@@ -3,6 +3,7 @@
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
+#include <scree/output/field_parameters.h>
 #include <scree/output/long_tables.h>
 #include <scree/output/probes.h>
 
@@ -46,14 +47,14 @@ struct MotionRecord
 /** What was written so far: a run that is resumed goes on after it. */
 struct ResultsRecord
 {
-  std::vector<std::pair<double, std::string>> bodies, contact; //!< of the PVD records
+  std::vector<std::pair<double, std::string>> bodies, contact, points; //!< of the PVD records
   std::size_t                                 n_history_rows = 0, n_probe_rows = 0;
   LongTablesRecord                            long_tables;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &bodies &contact &n_history_rows &n_probe_rows &long_tables;
+    archive &bodies &contact &points &n_history_rows &n_probe_rows &long_tables;
   }
 };
 
@@ -72,7 +73,8 @@ public:
 
   /** @param pairs_change from step to step: history.csv has no columns of them */
   Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
-          const std::vector<ProbeParameters<dim>> &probes, const bool pairs_change);
+          const std::vector<ProbeParameters<dim>> &probes, const FieldParameters &fields,
+          const bool pairs_change);
 
   /** What the next results refer to; to be told whenever it was made anew. */
   void set_discretization(const DisplacementSpace<dim> &space,
@@ -113,6 +115,11 @@ public:
 
   /** Contact CSV and VTU; whether all was written, known to the first process. */
   bool write_contact(const StepRecord &record, const ContactPoints<dim> &contact);
+
+  /** VTU of the material points after a step; whether all was written, known to the first process.
+   */
+  bool write_points(const StepRecord &record, const MaterialPoints<dim> &points,
+                    const bool has_inertia);
 
   /** Throws UserError if the body of a probe has no cell at one of its points. */
   void require_probes(const Kinematics<dim> &kinematics, const Vector &ghosted_u) const;
@@ -158,6 +165,7 @@ private:
   std::string                                 directory;
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
+  FieldParameters                             fields;
   bool                                        pairs_change;
   const DisplacementSpace<dim>               *space = nullptr;
   const LevelSetNodes<dim>                   *nodes = nullptr;
@@ -169,6 +177,6 @@ private:
   std::set<std::string>                       names_left_out;
   bool                                        is_moving = false;
   std::vector<double>                         history_row, probe_row; //!< the last ones
-  std::vector<std::pair<double, std::string>> body_records, contact_records;
+  std::vector<std::pair<double, std::string>> body_records, contact_records, point_records;
 };
 } // namespace scree

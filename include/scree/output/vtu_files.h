@@ -29,15 +29,42 @@ write_file(const std::string &file_name, const F &f)
   return file.good();
 }
 
+/** A text as the value of an attribute in XML. */
+inline std::string
+xml_text(const std::string &text)
+{
+  std::string result;
+  for (const char character : text)
+    result += character == '&'   ? "&amp;"
+              : character == '<' ? "&lt;"
+              : character == '"' ? "&quot;"
+                                 : std::string(1, character);
+  return result;
+}
+
 /** A number for the FieldData of a VTU file. */
 inline std::string
 field_datum(const std::string &name, const double value)
 {
   std::ostringstream text;
-  text << "<DataArray type=\"Float64\" Name=\"" << name
+  text << "<DataArray type=\"Float64\" Name=\"" << xml_text(name)
        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << std::setprecision(16) << value
        << "</DataArray>\n";
   return text.str();
+}
+
+/**
+ * The numbers of bodies or pairs for the FieldData of a VTU file: KIND.NAME is the number of the
+ * one of that name. Arrays of texts would do as well, but meshio reads no file that has one.
+ */
+template <typename Named>
+std::string
+field_data_of_names(const std::string &kind, const std::vector<Named> &all)
+{
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += field_datum(kind + "." + all[i].name, double(i));
+  return text;
 }
 
 /** Writes the VTU file of an output, with FieldData, which deal.II has none of but its own. */
