@@ -112,19 +112,23 @@ print_version()
 void
 write_documentation(const std::string &file_name)
 {
-  ParameterFile file = ParameterFile::documentation();
-  declare_dimension(file);
-  Parameters<2>().declare(file);
+  ParameterFile plane = ParameterFile::documentation(), space = ParameterFile::documentation();
+  declare_dimension(plane);
+  declare_dimension(space);
+  Parameters<2>().declare(plane);
+  Parameters<3>().declare(space);
+  const auto write = [&](std::ostream &out) {
+    plane.write_markdown(out);
+    out << "## What differs in 3D\n\n";
+    space.write_markdown_differences(out, plane);
+  };
   if (file_name.empty())
-    {
-      file.write_markdown(std::cout);
-      return;
-    }
+    return write(std::cout);
   require(!std::filesystem::exists(std::filesystem::symlink_status(file_name)), file_name,
           "exists already", "choose another name, or remove it: nothing is overwritten");
   std::ofstream out(file_name);
   require(out.good(), file_name, "cannot be written");
-  file.write_markdown(out);
+  write(out);
   out.close();
   require(out.good(), file_name, "cannot be written to the end", "make room on the disk");
 }

@@ -197,6 +197,7 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
   time_scheme.declare(time_section);
+  file.check_tables(time.end_time);
 
   ParameterSection solver_section = root.subsection("Solver", "How the equations are solved.");
   ParameterSection newton_section = solver_section.subsection("Newton", "Newton's method.");

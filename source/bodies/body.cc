@@ -18,8 +18,8 @@ BodyParameters<dim>::declare(ParameterSection &section)
   path = section.path();
   section.entry("Material", material, "Name of the material, of section Materials.");
   const FamilyKind<dim> *family = declare_family_kind<dim>(section);
-  section.entry("Body force", body_force,
-                "Force per volume, expressions of x, y, z, t separated by ';' [force/L^3].");
+  section.formula("Body force", body_force,
+                  "Force per volume, expressions of x, y, z, t separated by ';' [force/L^3].");
   section.entry("Initial velocity", initial_velocity,
                 "At t = 0, of runs with inertia: expressions of x, y, z separated by ';' "
                 "[L/time].");
@@ -36,8 +36,14 @@ BodyParameters<dim>::declare(ParameterSection &section)
   for (auto &[condition_name, subsection] :
        condition_section.named("Names", "Names of the boundary conditions of this body."))
     {
-      conditions.emplace_back(condition_name, BoundaryConditionParameters<dim>());
-      conditions.back().second.declare(subsection);
+      BoundaryConditionParameters<dim> condition;
+      const auto                       places = condition.declare(subsection);
+      for (const std::string &place : places)
+        {
+          condition.on = place;
+          conditions.emplace_back(
+            places.size() == 1 ? condition_name : condition_name + "." + place, condition);
+        }
     }
   check_expression<dim>(section, "Body force", body_force, dim);
   check_expression<dim>(section, "Initial velocity", initial_velocity, dim);
@@ -101,9 +107,9 @@ declare_bodies(ParameterSection                                &section,
 {
   std::vector<BodyParameters<dim>> bodies;
   std::string                      gravity = BodyParameters<dim>().gravity;
-  section.entry("Gravity", gravity,
-                "Acceleration that acts on the mass of all bodies, expressions of t separated by "
-                "';' [L/time^2].");
+  section.formula("Gravity", gravity,
+                  "Acceleration that acts on the mass of all bodies, expressions of t separated by "
+                  "';' [L/time^2].");
   check_expression<dim>(section, "Gravity", gravity, dim);
   for (auto &[name, subsection] : section.named("Names", "Names of the bodies."))
     {

@@ -79,15 +79,21 @@ names_of_kinds(const Question &answer)
 /** Declares the entry Type and those that several kinds share. */
 template <int dim>
 void
-declare_shared_entries(BoundaryConditionParameters<dim> &p, const ParameterSection &section)
+declare_shared_entries(BoundaryConditionParameters<dim> &p, std::vector<std::string> &on,
+                       const ParameterSection &section)
 {
   std::vector<std::string> types;
   for (const auto &kind : registered_conditions<dim>())
     types.push_back(kind.name);
   p.type = section.choice("Type", p.type, types, "What is prescribed.");
-  section.entry("On", p.on, dealii::Patterns::Selection(joined(region_names<dim>(), "|")),
+  section.entry("On", on, dealii::Patterns::Selection(joined(region_names<dim>(), "|")),
                 "Where: a face of the background box that clips the body (fitted), or 'surface', "
-                "the body's own surface inside the box.");
+                "the body's own surface inside the box. Several, as x-, x+, are a condition each, "
+                "called NAME.x- and NAME.x+.");
+  std::set<std::string> different(on.begin(), on.end());
+  if (on.empty() || different.size() < on.size())
+    section.error("On", on.empty() ? "nothing is listed" : "a place is listed twice",
+                  "list each once, as x-, x+");
   section.entry("Where", p.where,
                 "Expression of x, y, z in the initial configuration that selects the part (not "
                 "zero: selected), for example x > 1.");
@@ -97,11 +103,12 @@ declare_shared_entries(BoundaryConditionParameters<dim> &p, const ParameterSecti
                   + ": also rotation); empty: all displacement components. Not used by "
                   + names_of_kinds<dim>([](const auto &kind) { return !kind.uses("Components"); })
                   + ".");
-  section.entry(
+  section.formula(
     "Value", p.value,
     "One expression of x, y, z, t per component, separated by ';': displacement [L], "
     "traction or pressure [force/area], spring stiffness, of t = 0 [force/area/L]; empty: "
-    "zero.");
+    "zero. In it table(load.csv) is the value at t of a table (CSV) of times and values, linear in "
+    "between.");
 }
 
 template <int dim>
@@ -140,10 +147,13 @@ check_unused_entries(const ConditionKind<dim> &kind, const ParameterSection &sec
 } // namespace
 
 template <int dim>
-void
+std::vector<std::string>
 BoundaryConditionParameters<dim>::declare(ParameterSection &section)
 {
-  declare_shared_entries(*this, section);
+  std::vector<std::string> places = {on};
+  declare_shared_entries(*this, places, section);
+  if (!places.empty())
+    on = places.front();
   for (const auto &kind : registered_conditions<dim>())
     if (kind.declare != nullptr)
       kind.declare(*this, section, kind.name == type);
@@ -156,6 +166,7 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
                   "set Value = expression(s) of x, y, z, t");
   check_expression<dim>(section, "Where", where, 1);
   check_expression<dim>(section, "Value", value_text(*this), n_values(*this));
+  return places;
 }
 
 template <int dim>

@@ -1,8 +1,8 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/text_file.h>
 #include <scree/bodies/list_family.h>
 #include <scree/parameters/data_file.h>
 #include <scree/parameters/file.h>
-#include <scree/parameters/text_file.h>
 #include <scree/parameters/values.h>
 
 #include <deal.II/base/utilities.h>

@@ -159,18 +159,19 @@ MotionParameters<dim>::declare(ParameterSection &section)
       const std::string axis        = is_rotation ? names[m].substr(8) : " " + names[m];
       const std::string motion_key  = (is_rotation ? "Rotation" : "Displacement") + axis;
       const std::string load_key    = (is_rotation ? "Moment" : "Force") + axis;
-      section.entry(motion_key, motion[m],
-                    is_rotation ? (dim == 2 ? "Prescribed rotation, counter-clockwise, a formula "
-                                              "of t [rad]."
-                                            : "Prescribed component of the rotation vector, a "
-                                              "formula of t [rad].")
-                                : "Prescribed displacement of the reference point, a formula of t "
-                                  "[L].");
-      section.entry(load_key, load[m],
-                    is_rotation ? "Moment about the reference point in its current position, a "
-                                  "formula of t; the rotation is then unknown [force L]."
-                                : "Force, a formula of t; the displacement is then unknown "
-                                  "[force].");
+      section.formula(motion_key, motion[m],
+                      is_rotation
+                        ? (dim == 2 ? "Prescribed rotation, counter-clockwise, a formula "
+                                      "of t [rad]."
+                                    : "Prescribed component of the rotation vector, a "
+                                      "formula of t [rad].")
+                        : "Prescribed displacement of the reference point, a formula of t "
+                          "[L].");
+      section.formula(load_key, load[m],
+                      is_rotation ? "Moment about the reference point in its current position, a "
+                                    "formula of t; the rotation is then unknown [force L]."
+                                  : "Force, a formula of t; the displacement is then unknown "
+                                    "[force].");
       is_given |= !motion[m].empty() || !load[m].empty();
       if (!motion[m].empty() && !load[m].empty())
         section.error(load_key, "both " + motion_key + " and " + load_key + " are given",

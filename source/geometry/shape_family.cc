@@ -15,6 +15,25 @@ coordinates(const std::string &key, const std::string &text, const std::string &
 }
 
 ShapeEntry
+checksum_entry()
+{
+  return {"Checksum", "CRC-32 of the file, written by the program: another file is then refused",
+          "",         std::string(),
+          false,      false};
+}
+
+ShapeEntry
+corner_radius()
+{
+  return {"Corner radius",
+          "Radius of the corners, in 3D of the edges too, of %; unset: they are sharp",
+          "[length]",
+          unset_number,
+          true,
+          false};
+}
+
+ShapeEntry
 semi_axes_entry()
 {
   return {"Semi-axes", "Half the widths of % along x, y (and z)", "[length]", std::vector<double>(),

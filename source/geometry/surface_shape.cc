@@ -1,8 +1,8 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/log.h>
+#include <scree/base/text_file.h>
 #include <scree/geometry/surface_shape.h>
 #include <scree/parameters/data_file.h>
-#include <scree/parameters/text_file.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -151,10 +151,7 @@ surface_family()
     dim == 2 ? "surface (3D, or a plane section of it in 2D)" : "surface",
     {{"File", "File of a closed surface of triangles, STL or OBJ", "", std::string(), false, true,
       true},
-     {"Checksum",
-      "CRC-32 of the file, written by the program: another file is then "
-      "refused",
-      "", std::string(), false, false},
+     checksum_entry(),
      {"Scale", "Factor of the coordinates of the file; unset: 1", "", unset_number, true, false}},
     make_surface<dim>,
     check_surface<dim>};

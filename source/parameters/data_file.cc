@@ -1,6 +1,6 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/text_file.h>
 #include <scree/parameters/data_file.h>
-#include <scree/parameters/text_file.h>
 
 #include <boost/crc.hpp>
 #include <iomanip>
@@ -10,6 +10,8 @@ namespace scree
 {
 namespace
 {
+constexpr std::size_t largest_table = 64000000; // bytes
+
 /** CRC-32 in hexadecimal digits. */
 std::string
 checksum_of(const std::string &bytes)
@@ -21,6 +23,22 @@ checksum_of(const std::string &bytes)
   return text.str();
 }
 } // namespace
+
+std::string
+checked_table(const ParameterSection &section, const std::string &key, const TableCall &call)
+{
+  require(!call.file.empty(), key, "table() names no file", "write table(load.csv)");
+  const std::string path = section.found_file(key, call.file);
+  require(path.find_first_of(",;()") == std::string::npos, key,
+          "the file '" + path + "' cannot be named in a formula",
+          "move it to where the path has none of the characters , ; ( )");
+  read_time_table(path);
+  const std::string found = checksum_of(read_bytes(path, largest_table, path, "", "a table"));
+  require(call.checksum.empty() || call.checksum == found, key,
+          "the file '" + path + "' has changed, its checksum is " + found,
+          "take the file of before, or write table(FILE) without a checksum");
+  return "table(" + path + ", " + found + ")";
+}
 
 bool
 declare_checksum(const ParameterSection &section, const std::string &path, const std::string &bytes)

@@ -173,4 +173,19 @@ ParameterFile::check() const
       + (problems.size() > most_told ? ", the first " + std::to_string(most_told) + " of them" : "")
       + list);
 }
+
+void
+ParameterFile::check_tables(const double end_time) const
+{
+  for (const TableUse &use : tree->tables)
+    try
+      {
+        for (const double time : {0., end_time})
+          use.table.value(time);
+      }
+    catch (const UserError &problem)
+      {
+        ParameterSection(*tree, *use.node).error(use.key, problem.what());
+      }
+}
 } // namespace scree

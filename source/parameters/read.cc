@@ -1,6 +1,6 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/text_file.h>
 #include <scree/parameters/nearest_name.h>
-#include <scree/parameters/text_file.h>
 #include <scree/parameters/tree.h>
 
 #include <deal.II/base/utilities.h>

@@ -1,3 +1,6 @@
+#include <scree/base/exceptions.h>
+#include <scree/base/time_table.h>
+#include <scree/parameters/data_file.h>
 #include <scree/parameters/nearest_name.h>
 #include <scree/parameters/section.h>
 #include <scree/parameters/tree.h>
@@ -65,7 +68,9 @@ visit_entry(ParameterTree &tree, ParameterNode &node, const std::string &key, T 
   const Reading reading = parse_value(entry.text, written);
   if (!reading.ok)
     add_wrong_value(tree, node, entry, reading.hint);
-  else if (pattern != nullptr && !matches<T>(*pattern, entry.text))
+  // Of numbers by formula the value must match.
+  else if (pattern != nullptr && !matches<T>(*pattern, entry.text)
+           && !matches<T>(*pattern, format_value(written)))
     add_wrong_value(tree, node, entry, "");
   else
     {
@@ -246,25 +251,58 @@ ParameterSection::is_set(const std::string &key) const
          && (entry->order == 0 ? !entry->text.empty() : entry->value != entry->default_value);
 }
 
+std::string
+ParameterSection::found_file(const std::string &key, const std::string &path) const
+{
+  namespace fs                = std::filesystem;
+  const ParameterEntry &entry = node->get_entry(key);
+  std::error_code       none;
+  const fs::path        beside = fs::path(entry.position.file).parent_path() / path;
+  const bool            is_beside
+    = !fs::exists(path, none) && entry.position.file != "--set" && fs::exists(beside, none);
+  const std::string found = fs::absolute(is_beside ? beside : fs::path(path), none).string();
+  if (!none && found.find_first_of("#\n") == std::string::npos && found.back() != '\\')
+    return fs::path(found).lexically_normal().string();
+  error(key, "the file '" + found + "' cannot be named in a parameter file",
+        "move it to where the path has no '#'");
+  return "";
+}
+
 void
 ParameterSection::file(const std::string &key, std::string &path,
                        const std::string &documentation) const
 {
-  namespace fs = std::filesystem;
   entry(key, path, documentation);
-  ParameterEntry &entry = node->get_entry(key);
   if (path.empty() || tree->is_documentation)
     return;
-  std::error_code none;
-  const fs::path  beside = fs::path(entry.position.file).parent_path() / path;
-  const bool      is_beside
-    = !fs::exists(path, none) && entry.position.file != "--set" && fs::exists(beside, none);
-  const std::string found = fs::absolute(is_beside ? beside : fs::path(path), none).string();
-  if (none || found.find_first_of("#\n") != std::string::npos || found.back() == '\\')
-    error(key, "the file '" + found + "' cannot be named in a parameter file",
-          "move it to where the path has no '#'");
-  else
-    path = entry.value = fs::path(found).lexically_normal().string();
+  const std::string found = found_file(key, path);
+  if (!found.empty())
+    path = node->get_entry(key).value = found;
+}
+
+void
+ParameterSection::formula(const std::string &key, std::string &text,
+                          const std::string &documentation) const
+{
+  entry(key, text, documentation);
+  if (tree->is_documentation)
+    return;
+  try
+    {
+      const auto calls = table_calls(text, key);
+      for (auto call = calls.rbegin(); call != calls.rend(); ++call)
+        {
+          text.replace(call->begin, call->length, checked_table(*this, key, *call));
+          tree->tables.push_back({node, key, read_time_table(found_file(key, call->file))});
+        }
+      if (!calls.empty())
+        node->get_entry(key).value = text;
+    }
+  catch (const UserError &problem)
+    {
+      error(key, problem.what());
+      text = node->get_entry(key).value = node->get_entry(key).default_value;
+    }
 }
 
 void

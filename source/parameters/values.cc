@@ -1,3 +1,4 @@
+#include <scree/base/expression.h>
 #include <scree/parameters/values.h>
 
 #include <deal.II/base/utilities.h>
@@ -5,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <type_traits>
 
@@ -142,6 +144,22 @@ parse(const std::string &text, bool &value)
   return {value || text == "false", ""};
 }
 
+/** Takes the value of a formula, if it is a number of that type. */
+template <typename Number>
+bool
+set_number(const double formula, Number &value)
+{
+  value = static_cast<Number>(0);
+  if (!(std::abs(formula) < static_cast<double>(std::numeric_limits<Number>::max())))
+    return false;
+  if (std::is_integral_v<
+        Number> && (formula != std::round(formula) || (std::is_unsigned_v<Number> && formula < 0.)))
+    return false;
+  value = static_cast<Number>(formula);
+  return true;
+}
+
+/** A number, or a formula without variables. */
 template <typename Number>
 Reading
 parse_number(const std::string &text, Number &value)
@@ -151,9 +169,16 @@ parse_number(const std::string &text, Number &value)
   const auto        result = std::from_chars(first, last, value);
   if (result.ec == std::errc::result_out_of_range)
     return {false, "the number is too large or too small to be represented"};
+  if (text.empty())
+    return {false, "write a value behind '='"};
   if (result.ec != std::errc() || (first != text.data() && *first == '-'))
-    return {false, text.empty() ? "write a value behind '='" : ""};
+    {
+      const auto formula = constant_value(text);
+      return {formula && set_number(*formula, value), ""};
+    }
   if (result.ptr == last)
+    return {true, ""};
+  if (const auto formula = constant_value(text); formula && set_number(*formula, value))
     return {true, ""};
   const std::string rest = Utilities::trim(std::string(result.ptr, last));
   if (rest[0] == ',')

@@ -2,6 +2,7 @@
 #include <scree/parameters/tree.h>
 
 #include <ostream>
+#include <sstream>
 
 namespace scree
 {
@@ -71,6 +72,16 @@ cell(const std::string &text)
 }
 
 void
+write_row(std::ostream &out, const ParameterEntry &entry)
+{
+  out << "| " << cell(entry.key) << " | "
+      << (entry.default_value.empty() ? "(none)" : cell(entry.default_value)) << " | "
+      << cell(entry.allowed) << " | " << cell(entry.documentation) << " |\n";
+}
+
+constexpr auto table_head = "| Entry | Default | Allowed | Meaning |\n|---|---|---|---|\n";
+
+void
 write_markdown_section(std::ostream &out, const ParameterNode &node)
 {
   const auto entries = node.declared_entries();
@@ -80,15 +91,40 @@ write_markdown_section(std::ostream &out, const ParameterNode &node)
     out << cell(node.documentation) << "\n\n";
   if (!entries.empty())
     {
-      out << "| Entry | Default | Allowed | Meaning |\n|---|---|---|---|\n";
+      out << table_head;
       for (const ParameterEntry *entry : entries)
-        out << "| " << cell(entry->key) << " | "
-            << (entry->default_value.empty() ? "(none)" : cell(entry->default_value)) << " | "
-            << cell(entry->allowed) << " | " << cell(entry->documentation) << " |\n";
+        write_row(out, *entry);
       out << '\n';
     }
   for (const ParameterNode *section : node.declared_sections())
     write_markdown_section(out, *section);
+}
+
+/** The entries of `node` that those of `other` are not, and which are missing. */
+void
+write_differences(std::ostream &out, const ParameterNode &node, const ParameterNode &other)
+{
+  std::ostringstream rows;
+  for (const ParameterEntry *entry : node.declared_entries())
+    {
+      const ParameterEntry *same = other.find_entry(entry->key);
+      if (same == nullptr || same->default_value != entry->default_value
+          || same->allowed != entry->allowed || same->documentation != entry->documentation)
+        write_row(rows, *entry);
+    }
+  std::string missing;
+  for (const ParameterEntry *entry : other.declared_entries())
+    if (node.find_entry(entry->key) == nullptr)
+      missing += (missing.empty() ? "" : ", ") + entry->key;
+  if (!rows.str().empty() || !missing.empty())
+    out << "### " << cell(node.path()) << "\n\n";
+  if (!missing.empty())
+    out << "There is no entry " << cell(missing) << ".\n\n";
+  if (!rows.str().empty())
+    out << table_head << rows.str() << '\n';
+  for (const ParameterNode *section : node.declared_sections())
+    if (const ParameterNode *same = other.find_section(section->name); same != nullptr)
+      write_differences(out, *section, *same);
 }
 } // namespace
 
@@ -110,5 +146,11 @@ void
 ParameterFile::write_markdown(std::ostream &out) const
 {
   write_markdown_section(out, tree->root);
+}
+
+void
+ParameterFile::write_markdown_differences(std::ostream &out, const ParameterFile &other) const
+{
+  write_differences(out, tree->root, other.tree->root);
 }
 } // namespace scree

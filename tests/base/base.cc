@@ -7,6 +7,8 @@
 #include <scree/base/log.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 
 namespace scree
 {
@@ -25,6 +27,47 @@ TEST(Expression, ComponentsOfPositionAndTime)
   EXPECT_EQ(vector[0], 11.);
   EXPECT_EQ(vector[1], 9.);
   EXPECT_EQ(Expression<3>("z", 1, "here").value(Point<3>(1., 2., 7.)), 7.);
+}
+
+TEST(TimeTable, IsLinearBetweenItsRows)
+{
+  const TimeTable table("t, f\n0, 1 # start\n\n 0.5,\t2\n2,-1\n", "load.csv");
+  EXPECT_EQ(table.value(0.), 1.);
+  EXPECT_EQ(table.value(0.25), 1.5);
+  EXPECT_EQ(table.value(0.5), 2.);
+  EXPECT_EQ(table.value(1.), 1.);
+  EXPECT_EQ(table.value(2.), -1.);
+  EXPECT_EQ(table.value(2. + 1e-12), -1.); // rounding of times
+  EXPECT_THROW(table.value(2.001), UserError);
+  EXPECT_THROW(table.value(-0.001), UserError);
+  for (const char *text : {"", "0, 1", "0, 1\n0, 2", "0, 1\n1", "0, 1\n1, 2, 3", "0, 1\n1, inf",
+                           "t, f\nt, f\n0, 1\n1, 1", "0; 1\n1; 2", "0, 1\n1, 2x"})
+    EXPECT_THROW(TimeTable(text, "load.csv"), UserError) << text;
+}
+
+TEST(TimeTable, InFormulas)
+{
+  const std::string file = testing::TempDir() + "scree_load.csv";
+  std::ofstream(file) << "0, 0\n2, 4\n";
+  const std::string   call = "table(" + file + ", 0)";
+  const Expression<2> f("x + " + call + "; 2*" + call + " - " + call + "*t", 2, "here");
+  for (const double time : {0., 1., 2., 0.5, 0.25, 0.75, 1.25, 1.5, 1.})
+    {
+      EXPECT_EQ(f.value(Point<2>(3., 0.), time, 0), 3. + 2. * time);
+      EXPECT_EQ(f.value(Point<2>(3., 0.), time, 1), 4. * time - 2. * time * time);
+    }
+  EXPECT_THROW(f.value(Point<2>(), 2.1), UserError);
+  EXPECT_THROW(Expression<2>("table(" + file + ")", 1, "here"), UserError); // no place for tables
+  EXPECT_THROW(Expression<2>("table(/none.csv, 0)", 1, "here"), UserError);
+  std::remove(file.c_str());
+}
+
+TEST(ConstantValue, OfFormulasWithoutVariables)
+{
+  EXPECT_EQ(constant_value("0.5 + 0.866"), 0.5 + 0.866);
+  EXPECT_EQ(constant_value("max(1, 2)*pi"), 2. * M_PI);
+  for (const char *text : {"", "x", "t", "1,2", "1;2", "2 mm", "a = 1", "rand()", "1 +", "(1"})
+    EXPECT_FALSE(constant_value(text)) << text;
 }
 
 TEST(Expression, Selects)

@@ -3,6 +3,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/parameters/file.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -179,4 +180,40 @@ TEST_F(ParameterFiles, MissingFilesAndCyclesAreErrors)
   EXPECT_EQ(reading_error(write_file("d.prm", "include common/open.prm\nend\n")),
             "common/open.prm:1: 'subsection A' has no 'end' in this file\n"
             "  remedy: add a line 'end' behind the last entry of the section");
+}
+TEST(ReadParameters, NumbersMayBeFormulasWithoutVariables)
+{
+  ParameterFile       file  = ParameterFile::from_string("set Angle = - pi/2\nset Steps = 2*16\n"
+                                                                "set Sizes = 1/4, 2, sqrt(4)\n"
+                                                                "set Corners = 0, 1 + 1; 2^3, 1\n"
+                                                                "set Half = 3/2\nset Share = 3/2\n");
+  double              angle = 0., share = 0.5;
+  unsigned int        steps = 1, half = 7;
+  std::vector<double> sizes;
+  std::vector<dealii::Point<2>> corners;
+  file.root().entry("Angle", angle, "");
+  file.root().entry("Steps", steps, dealii::Patterns::Integer(1, 100), "");
+  file.root().entry("Sizes", sizes, dealii::Patterns::Double(0.), "");
+  file.root().entry("Corners", corners, "");
+  EXPECT_EQ(angle, -M_PI / 2.);
+  EXPECT_EQ(steps, 32u);
+  EXPECT_EQ(sizes, (std::vector<double>{0.25, 2., 2.}));
+  EXPECT_EQ(corners, (std::vector<dealii::Point<2>>{{0., 2.}, {8., 1.}}));
+  EXPECT_EQ(file.values().at("Sizes"), "0.25, 2, 2");
+  // What they give must be allowed.
+  file.root().entry("Half", half, "");
+  file.root().entry("Share", share, dealii::Patterns::Double(0., 1.), "");
+  EXPECT_EQ(half, 7u);
+  EXPECT_EQ(share, 0.5);
+  try
+    {
+      file.check();
+      FAIL();
+    }
+  catch (const UserError &error)
+    {
+      const std::string told = error.what();
+      EXPECT_NE(told.find("\"Half\" = 3/2 is not allowed: an integer >= 0"), std::string::npos);
+      EXPECT_NE(told.find("\"Share\" = 3/2 is not allowed: a number in [0, 1]"), std::string::npos);
+    }
 }

@@ -1,17 +1,25 @@
 #pragma once
 
+#include <scree/base/time_table.h>
+
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace scree
 {
 /**
  * A formula of position and time, f(x, y[, z], t), parsed by muParser; `pi` is known. Several
  * components are separated by ';'. Comparisons give 1 or 0, so that a region is an expression too.
+ * A TimeTable at t is table(FILE, CHECKSUM), as ParameterSection::formula() makes it of
+ * table(FILE).
  */
 template <int dim>
 class Expression
@@ -44,7 +52,25 @@ public:
   }
 
 private:
-  std::string                                  formula;
-  std::shared_ptr<dealii::FunctionParser<dim>> parser;
+  using Parser = dealii::FunctionParser<dim>;
+
+  std::shared_ptr<Parser> parser_with(const std::map<std::string, double> &constants) const;
+  /** At a time, where tables have values. */
+  const Parser &parser_at(const double time) const;
+
+  /** A formula with tables is compiled for a time, with their values as constants. */
+  struct Compiled
+  {
+    std::vector<TimeTable>                                  tables;
+    std::vector<std::pair<double, std::shared_ptr<Parser>>> of_times; //!< the last ones
+  };
+
+  std::string               formula, compilable; //!< the latter with names of tables' values
+  unsigned int              n_components;
+  std::shared_ptr<Parser>   parser;   //!< without tables
+  std::shared_ptr<Compiled> compiled; //!< with tables
 };
+
+/** The value of a formula without variables; nothing if the text is none. */
+std::optional<double> constant_value(const std::string &text);
 } // namespace scree

@@ -39,7 +39,8 @@ struct BoundaryConditionParameters
   double                   penalty_factor = 20.; //!< beta = factor k^2 (2 mu + lambda)/h
   dealii::Point<dim>       point;                //!< of a point support
 
-  void declare(ParameterSection &section);
+  /** Returns the faces, or the surface, where it acts if there are several: one condition each. */
+  std::vector<std::string> declare(ParameterSection &section);
 
   /** On the surface and not restricted by Where. */
   bool is_all_around() const

@@ -33,6 +33,12 @@ ShapeEntry positive_length(const std::string &key, const std::string &text);
 ShapeEntry coordinates(const std::string &key, const std::string &text,
                        const std::string &unit = "[length]");
 
+/** What declare_checksum() reads. */
+ShapeEntry checksum_entry();
+
+/** The radius of corners, which are sharp where it is not set. */
+ShapeEntry corner_radius();
+
 /** Positive half widths along the axes. */
 ShapeEntry semi_axes_entry();
 

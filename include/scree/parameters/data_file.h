@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/base/time_table.h>
 #include <scree/parameters/section.h>
 
 #include <cstddef>
@@ -7,6 +8,14 @@
 
 namespace scree
 {
+/**
+ * A table in the formula of entry `key`, as "table(PATH, CHECKSUM)" with the absolute path.
+ *
+ * @throws UserError if there is no such table, or it is another one than its checksum tells
+ */
+std::string checked_table(const ParameterSection &section, const std::string &key,
+                          const TableCall &call);
+
 /**
  * Declares entry Checksum, by which a run that is resumed or repeated sees whether a file is still
  * the same. Returns whether it is; if not, that is recorded.

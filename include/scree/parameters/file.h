@@ -71,8 +71,14 @@ public:
   /** The values of all declared entries by path, "Bodies/block/Shape/Radius". */
   std::map<std::string, std::string> values() const;
 
+  /** Records tables in formulas that have no value at the start of the run or at `end_time`. */
+  void check_tables(const double end_time) const;
+
   /** Writes a Markdown table per section: entry, default, allowed values, meaning. */
   void write_markdown(std::ostream &out) const;
+
+  /** The entries of this file that `other` has not or not so, and those that only it has. */
+  void write_markdown_differences(std::ostream &out, const ParameterFile &other) const;
 
 private:
   ParameterFile();

@@ -69,6 +69,17 @@ public:
    */
   void file(const std::string &key, std::string &path, const std::string &documentation) const;
 
+  /** The absolute path of such a file that the entry `key` names; empty, and a problem, if it
+   * cannot be written back. */
+  std::string found_file(const std::string &key, const std::string &path) const;
+
+  /**
+   * Declares `key` as formulas for an Expression, in which table(FILE) is a TimeTable; it becomes
+   * table(FILE, CHECKSUM) with the absolute path, so that a run that is resumed or repeated sees
+   * whether the table is still the same.
+   */
+  void formula(const std::string &key, std::string &text, const std::string &documentation) const;
+
   /** Records the subsection `name` as a problem if the user wrote it; what stands there is not
    * read. */
   void refuse(const std::string &name, const std::string &what, const std::string &remedy) const;

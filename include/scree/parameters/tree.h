@@ -1,5 +1,7 @@
 #pragma once
 
+#include <scree/base/time_table.h>
+
 #include <memory>
 #include <set>
 #include <string>
@@ -108,6 +110,14 @@ struct ParameterProblem
   std::string where() const;
 };
 
+/** A table in a formula. */
+struct TableUse
+{
+  ParameterNode *node;
+  std::string    key;
+  TimeTable      table;
+};
+
 /** A parameter file: what was written, what was declared, what is wrong. */
 struct ParameterTree
 {
@@ -119,6 +129,7 @@ struct ParameterTree
   unsigned int                  n_declared = 0;
   std::vector<ParameterProblem> problems;
   std::vector<ParameterProblem> warnings;
+  std::vector<TableUse>         tables;
 
   /** Records a problem once, in `node` at `position` or, if that is empty, at the section. */
   void add_problem(const ParameterNode &node, const SourcePosition &position,

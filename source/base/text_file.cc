@@ -1,5 +1,5 @@
 #include <scree/base/exceptions.h>
-#include <scree/parameters/text_file.h>
+#include <scree/base/text_file.h>
 
 #include <algorithm>
 #include <cstdio>
