@@ -1,6 +1,8 @@
+#include <scree/base/log.h>
 #include <scree/geometry/box.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -17,6 +19,10 @@ check_box(const ShapeParameters<dim> &p, const ParameterSection &section)
     if (lower[d] >= upper[d])
       return section.error("Lower corner", "'Lower corner' is not below 'Upper corner'",
                            "every coordinate of the lower corner must be less");
+    else if (p.number("Corner radius") > 0.5 * (upper[d] - lower[d]) * (1. + 1e-12))
+      return section.error(
+        "Corner radius", "the box is thinner than two radii: " + short_number(upper[d] - lower[d]),
+        "give at most half of its shortest edge");
 }
 } // namespace
 
@@ -27,17 +33,20 @@ Box<dim>::family()
   return {{"box"},
           "box",
           {coordinates("Lower corner", "Lower corner of %"),
-           coordinates("Upper corner", "Upper corner of %")},
+           coordinates("Upper corner", "Upper corner of %"), corner_radius()},
           [](const ShapeParameters<dim> &p) -> ShapePointer<dim> {
-            return std::make_unique<Box<dim>>(p.point("Lower corner"), p.point("Upper corner"));
+            const double radius = p.number("Corner radius");
+            return std::make_unique<Box<dim>>(p.point("Lower corner"), p.point("Upper corner"),
+                                              std::isnan(radius) ? 0. : radius);
           },
           check_box<dim>};
 }
 
 template <int dim>
-Box<dim>::Box(const Point<dim> &lower, const Point<dim> &upper)
+Box<dim>::Box(const Point<dim> &lower, const Point<dim> &upper, const double radius)
     : lower(lower)
     , upper(upper)
+    , radius(radius)
 {
   for (unsigned int d = 0; d < dim; ++d)
     Assert(lower[d] < upper[d], ExcMessage("The corners of a box must be in order."));
@@ -51,11 +60,12 @@ Box<dim>::signed_distance(const Point<dim> &x) const
   double         inside = -Shape<dim>::unbounded;
   for (unsigned int d = 0; d < dim; ++d)
     {
-      const double distance = std::max(lower[d] - x[d], x[d] - upper[d]);
+      // of the box whose points are at least the radius inside
+      const double distance = std::max(lower[d] - x[d], x[d] - upper[d]) + radius;
       outside[d]            = std::max(distance, 0.);
       inside                = std::max(inside, distance);
     }
-  return inside < 0 ? inside : outside.norm();
+  return (inside < 0 ? inside : outside.norm()) - radius;
 }
 
 template <int dim>
@@ -69,13 +79,15 @@ template <int dim>
 bool
 Box<dim>::is_smooth() const
 {
-  return false;
+  return radius > 0.;
 }
 
 template <int dim>
 void
 Box<dim>::append_pieces(const BoundingBox<dim> &box, std::vector<SmoothPiece<dim>> &pieces) const
 {
+  if (radius > 0.)
+    return Shape<dim>::append_pieces(box, pieces);
   for (unsigned int d = 0; d < dim; ++d)
     if (box.upper_bound(d) < lower[d] || box.lower_bound(d) > upper[d])
       return;

@@ -1,6 +1,16 @@
+#include <scree/base/exceptions.h>
+#include <scree/base/text_file.h>
 #include <scree/geometry/polygon.h>
+#include <scree/geometry/rounded_polygon.h>
+#include <scree/parameters/data_file.h>
+#include <scree/parameters/values.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
 
 namespace scree
 {
@@ -31,20 +41,97 @@ segment_meets_box(const Point<2> &a, const Point<2> &b, const BoundingBox<2> &bo
   return first <= last;
 }
 
+constexpr std::size_t largest_vertices_file = 64000000; // bytes
+
+/** A point per line; the first line may have names, what follows # is not read. */
+std::vector<Point<2>>
+vertices_in(const std::string &text, const std::string &file)
+{
+  std::vector<Point<2>> vertices;
+  std::istringstream    in(text);
+  std::string           line;
+  bool                  may_have_names = true;
+  for (unsigned int n = 1; std::getline(in, line); ++n)
+    {
+      line = Utilities::trim(line.substr(0, line.find('#')));
+      if (line.empty())
+        continue;
+      Point<2>   vertex;
+      const bool is_vertex = parse_value(line, vertex).ok;
+      require(is_vertex || (may_have_names && std::isalpha(static_cast<unsigned char>(line[0]))),
+              file + ":" + std::to_string(n), "'" + line + "' is no point",
+              "write x and y, a comma between them");
+      may_have_names = false;
+      if (is_vertex)
+        vertices.push_back(vertex);
+    }
+  return vertices;
+}
+
+std::vector<Point<2>>
+vertices_of_file(const std::string &file)
+{
+  return vertices_in(
+    read_text_file(file, largest_vertices_file, file, "check the path", "vertices"), file);
+}
+
+/** Those of the entry or of the file, without a last one that is the first again. */
+template <int dim>
+std::vector<Point<2>>
+vertices_of(const ShapeParameters<dim> &p)
+{
+  const std::string    &file     = p.text("Vertices file");
+  std::vector<Point<2>> vertices = file.empty() ? p.vertices("Vertices") : vertices_of_file(file);
+  if (vertices.size() > 1 && vertices.front() == vertices.back())
+    vertices.pop_back();
+  return vertices;
+}
+
 template <int dim>
 void
 check_polygon(const ShapeParameters<dim> &p, const ParameterSection &section)
 {
-  const auto &vertices = p.vertices("Vertices");
   if (dim == 3)
-    section.error("Type", "polygons exist in 2D only",
-                  "use a box or an intersection of half spaces");
-  else if (!vertices.empty() && vertices.size() < 3)
-    section.error("Vertices", "the polygon has " + std::to_string(vertices.size()) + " vertices",
+    return section.error("Type", "polygons exist in 2D only",
+                         "use a box or an intersection of half spaces");
+  const std::string &file = p.text("Vertices file");
+  const std::string  key  = file.empty() ? "Vertices" : "Vertices file";
+  if (file.empty() == p.vertices("Vertices").empty())
+    return section.error(file.empty() ? "Type" : "Vertices file",
+                         file.empty()
+                           ? "Type = polygon needs the entry 'Vertices' or 'Vertices file'"
+                           : "both Vertices and a file of them are given",
+                         "set one of them");
+  if (!file.empty()
+      && !declare_checksum(
+        section, file, read_bytes(file, largest_vertices_file, file, "check the path", "vertices")))
+    return;
+  const auto   vertices = vertices_of(p);
+  const double radius   = p.number("Corner radius");
+  if (vertices.size() < 3)
+    section.error(key, "the polygon has " + std::to_string(vertices.size()) + " vertices",
                   "give at least 3, as in 0,0; 1,0; 1,1");
-  else if (!vertices.empty() && Polygon::crosses_itself(vertices))
-    section.error("Vertices", "the sides of the polygon cross or touch each other",
+  else if (Polygon::crosses_itself(vertices))
+    section.error(key, "the sides of the polygon cross or touch each other",
                   "list the corners in order along the boundary, each once");
+  else if (const std::string problem
+           = std::isnan(radius) ? "" : RoundedPolygon::what_does_not_fit(vertices, radius);
+           !problem.empty())
+    section.error("Corner radius", problem, "give a smaller radius");
+}
+
+template <int dim>
+void
+check_polygon_or_tell(const ShapeParameters<dim> &p, const ParameterSection &section)
+{
+  try
+    {
+      check_polygon(p, section);
+    }
+  catch (const UserError &error)
+    {
+      section.error("Vertices file", error.what());
+    }
 }
 
 template <int dim>
@@ -52,7 +139,12 @@ ShapePointer<dim>
 make_polygon(const ShapeParameters<dim> &p)
 {
   if constexpr (dim == 2)
-    return std::make_unique<Polygon>(p.vertices("Vertices"));
+    {
+      const double radius = p.number("Corner radius");
+      if (!std::isnan(radius))
+        return std::make_unique<RoundedPolygon>(vertices_of(p), radius);
+      return std::make_unique<Polygon>(vertices_of(p));
+    }
   else
     AssertThrow(false, ExcMessage("Polygons exist in 2D only."));
 }
@@ -64,10 +156,14 @@ Polygon::family()
 {
   return {{"polygon"},
           "polygon (2D)",
-          {{"Vertices", "Corners of % in order, as in 0,0; 1,0; 1,1", "[length]",
-            std::vector<Point<2>>()}},
+          {{"Vertices", "Corners of % in order, either way round, as in 0,0; 1,0; 1,1", "[length]",
+            std::vector<Point<2>>(), false, false},
+           {"Vertices file", "File (CSV) with a corner per line in place of Vertices", "",
+            std::string(), false, false, true},
+           corner_radius(),
+           checksum_entry()},
           make_polygon<dim>,
-          check_polygon<dim>};
+          check_polygon_or_tell<dim>};
 }
 
 Polygon::Polygon(const std::vector<Point<2>> &vertices)

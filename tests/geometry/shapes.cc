@@ -10,6 +10,7 @@
 #include <scree/geometry/moved_shape.h>
 #include <scree/geometry/polygon.h>
 #include <scree/geometry/ring.h>
+#include <scree/geometry/rounded_polygon.h>
 #include <scree/geometry/superellipse.h>
 
 #include <cmath>
@@ -148,6 +149,87 @@ TEST(Shapes, ConcavePolygon)
 
 // A star of many sides: distances by the tree are those of all sides, in a time that does not grow
 // with their square.
+void
+add_arc(Boundary<2> &points, const Point<2> &centre, const double radius, const double from)
+{
+  for (unsigned int i = 0; i <= 1000; ++i)
+    {
+      const double t = from + 0.5 * M_PI * i / 1000.;
+      points.push_back(centre + radius * Point<2>(std::cos(t), std::sin(t)));
+    }
+}
+
+TEST(Shapes, RoundCorners)
+{
+  const double         r = 0.3;
+  const Point<2>       lower(-0.4, -1.1), upper(1.3, 0.7);
+  const Box<2>         box(lower, upper, r);
+  const RoundedPolygon polygon({lower, {upper[0], lower[1]}, upper, {lower[0], upper[1]}}, r),
+    clockwise({lower, {lower[0], upper[1]}, upper, {upper[0], lower[1]}}, r);
+  for (const Point<2> &x : scattered_points<2>(400, 2.5))
+    {
+      EXPECT_NEAR(box.signed_distance(x), polygon.signed_distance(x), 1e-13) << x;
+      EXPECT_NEAR(box.signed_distance(x), clockwise.signed_distance(x), 1e-13) << x;
+    }
+  EXPECT_NEAR(box.signed_distance({2.3, 1.7}), std::sqrt(2.) * 1.3 - 0.3, 1e-14);
+
+  const Box<3> space(Point<3>(-1, -0.5, 0), Point<3>(1, 0.5, 2), 0.2);
+  EXPECT_NEAR(space.signed_distance({2, 1.5, 3}), std::sqrt(3.) * 1.2 - 0.2, 1e-14);
+  EXPECT_NEAR(space.signed_distance({2, 1.5, 1}), std::sqrt(2.) * 1.2 - 0.2, 1e-14);
+  EXPECT_NEAR(space.signed_distance({0.9, 0.4, 1}), std::sqrt(0.02) - 0.2, 1e-14);
+  EXPECT_NEAR(space.signed_distance({0.8, 0.1, 1}), -0.2, 1e-14);
+  EXPECT_TRUE(space.is_smooth());
+}
+
+TEST(Shapes, RoundCornersOfConcavePolygon)
+{
+  // The letter L, its corners at (-1, -1), (1, -1), (1, 0), (0, 0), (0, 1), (-1, 1).
+  const double                r        = 0.3;
+  const std::vector<Point<2>> vertices = {{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
+  Boundary<2>                 boundary;
+  const std::vector<std::pair<Point<2>, double>> arcs
+    = {{{-0.7, -0.7}, M_PI}, {{0.7, -0.7}, 1.5 * M_PI}, {{0.7, -0.3}, 0.},
+       {{0.3, 0.3}, M_PI},   {{-0.3, 0.7}, 0.},         {{-0.7, 0.7}, 0.5 * M_PI}};
+  for (const auto &[centre, from] : arcs)
+    add_arc(boundary, centre, r, from);
+  add_segment(boundary, {-0.7, -1}, {0.7, -1});
+  add_segment(boundary, {1, -0.7}, {1, -0.3});
+  add_segment(boundary, {0.7, 0}, {0.3, 0});
+  add_segment(boundary, {0, 0.3}, {0, 0.7});
+  add_segment(boundary, {-0.3, 1}, {-0.7, 1});
+  add_segment(boundary, {-1, 0.7}, {-1, -0.7});
+  const auto inside = [&](const Point<2> &x) {
+    bool result = x[0] > -1 && x[1] > -1 && x[0] < 1 && x[1] < 1 && (x[0] < 0 || x[1] < 0);
+    for (const auto &[centre, from] : arcs)
+      {
+        // Beyond the centre, as seen from the corner's quadrant.
+        const Tensor<1, 2> ray = x - centre;
+        const double       c = std::cos(from + 0.25 * M_PI), s = std::sin(from + 0.25 * M_PI);
+        const bool         is_beyond
+          = ray[0] * c > 0 && ray[1] * s > 0 && std::abs(ray[0]) < r && std::abs(ray[1]) < r;
+        if (is_beyond)
+          result = (ray.norm() < r) == (centre != Point<2>(0.3, 0.3));
+      }
+    return result;
+  };
+  ASSERT_EQ(RoundedPolygon::what_does_not_fit(vertices, r), "");
+  check_shape<2>(RoundedPolygon(vertices, r), boundary, 1e-2, inside);
+  EXPECT_NE(RoundedPolygon::what_does_not_fit(vertices, 0.6), "");
+  // Straight angles stay, arcs may fill the sides: a disc.
+  const RoundedPolygon disc({{-1, -1}, {0, -1}, {1, -1}, {1, 1}, {-1, 1}}, 1.);
+  for (const Point<2> &x : scattered_points<2>(100, 2.5))
+    EXPECT_NEAR(disc.signed_distance(x), x.norm() - 1., 1e-13) << x;
+}
+
+TEST(Shapes, RoundCornersThatMeetOtherSidesAreRecognised)
+{
+  // A notch reaches close to the corner at (2, 0).
+  const std::vector<Point<2>> vertices
+    = {{0, 0}, {2, 0}, {2, 2}, {1.9, 2}, {1.9, 0.1}, {1.8, 2}, {0, 2}};
+  EXPECT_EQ(RoundedPolygon::what_does_not_fit(vertices, 0.001), "");
+  EXPECT_NE(RoundedPolygon::what_does_not_fit(vertices, 0.6), "");
+}
+
 TEST(Shapes, PolygonOfManySides)
 {
   const auto star = [](const unsigned int n) {

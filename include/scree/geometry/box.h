@@ -4,14 +4,15 @@
 
 namespace scree
 {
-/** An axis-aligned box between two corners. */
+/** An axis-aligned box between two corners; with a radius its edges and corners are round. */
 template <int dim>
 class Box : public Shape<dim>
 {
 public:
   static ShapeFamily<dim> family();
 
-  Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
+  /** @param radius of edges and corners [length], at most half of the shortest edge */
+  Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper, const double radius = 0.);
 
   double signed_distance(const dealii::Point<dim> &x) const override;
 
@@ -24,5 +25,6 @@ public:
 
 private:
   dealii::Point<dim> lower, upper;
+  double             radius;
 };
 } // namespace scree
