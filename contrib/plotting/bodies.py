@@ -159,7 +159,10 @@ class BodyPicture:
     def draw_section(self):
         section = section_plane(self.mesh, self.contact)
         figure, axes, colours = draw_section(self.mesh, self.deformed, self.values, section, self.limits, self.shown)
-        self.finish(figure, axes, colours, f", section {'xyz'[section[0]]} = {short(section[1])}")
+        across, *along = sorted(range(3), key=lambda axis: axis != section[0])
+        axes.set_xlabel(self.run.units.label("xyz"[along[0]], "length"))
+        axes.set_ylabel(self.run.units.label("xyz"[along[1]], "length"))
+        self.finish(figure, axes, colours, f", section {'xyz'[across]} = {short(section[1])}")
         return figure
 
     def finish(self, figure, axes, colours, more=""):

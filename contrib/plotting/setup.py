@@ -1,4 +1,6 @@
 """What "scree --check" set up: bodies, cells, fitted boundaries, contact surfaces."""
+import textwrap
+
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import ListedColormap
@@ -28,7 +30,9 @@ def draw(run):
                               label=names[number] if number < len(names) else f"body {number}"))
     handles += draw_conditions(axes, run, mesh, points, edges)
     if run.contact_files:
-        handles += draw_contact_surface(figure, axes, run.contact(0), mesh.size)
+        handles += draw_contact_surface(figure, axes, run, mesh.size)
+    axes.set_xlabel(run.units.label("x", "length"))
+    axes.set_ylabel(run.units.label("y", "length"))
     axes.set_title(run.title + ": set-up")
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return save(figure, run.directory / "setup.png")
@@ -78,7 +82,7 @@ def draw_conditions(axes, run, mesh, points, edges):
     for index, body in enumerate(run.names("Bodies")):
         section = f"Bodies/{body}/Boundary conditions"
         for name in run.names(section):
-            face = run.parameters.get(f"{section}/{name}/On", "")
+            places = [place.strip() for place in run.parameters.get(f"{section}/{name}/On", "").split(",")]
             kind = run.parameters.get(f"{section}/{name}/Type", "")
             where = run.parameters.get(f"{section}/{name}/Where", "1")
             colour = COLOURS[(number + 3) % len(COLOURS)]
@@ -88,23 +92,26 @@ def draw_conditions(axes, run, mesh, points, edges):
                                      zorder=4, label=f"{body}, {name}: {kind}")
                 number += 1
                 continue
-            text = f"{body}, {name}: {kind} on {face}" + ("" if where == "1" else f" where {where}")
-            handles.append(Line2D([], [], color=colour, linewidth=4, alpha=0.6, label=text))
-            if len(face) == 2 and face[0] in "xy":
-                axis = "xy".index(face[0])
-                plane = corners[face[1] == "+"][axis]
-                own = (mesh.body[edges[:, 0]] == index) & (np.abs(middle[:, axis] - plane) < 1e-6 * mesh.size)
-                axes.add_collection(LineCollection(points[edges[own]], colors=colour, linewidths=5, alpha=0.6))
-            elif regions:
-                own = [(b, c) == (body, name) for b, c in zip(regions["body"], regions["condition"])]
-                axes.plot(np.asarray(regions["x"])[own], np.asarray(regions["y"])[own], "o", markersize=4,
-                          color=colour, alpha=0.6, zorder=3)
+            text = f"{body}, {name}: {kind} on {', '.join(places)}" + ("" if where == "1" else f" where {where}")
+            handles.append(Line2D([], [], color=colour, linewidth=4, alpha=0.6, label=textwrap.fill(text, 42)))
+            for place in places:
+                if len(place) == 2 and place[0] in "xy":
+                    axis = "xy".index(place[0])
+                    plane = corners[place[1] == "+"][axis]
+                    own = (mesh.body[edges[:, 0]] == index) & (np.abs(middle[:, axis] - plane) < 1e-6 * mesh.size)
+                    axes.add_collection(LineCollection(points[edges[own]], colors=colour, linewidths=5, alpha=0.6))
+                elif regions:
+                    condition = name if len(places) == 1 else f"{name}.{place}"
+                    own = [(b, c) == (body, condition) for b, c in zip(regions["body"], regions["condition"])]
+                    axes.plot(np.asarray(regions["x"])[own], np.asarray(regions["y"])[own], "o", markersize=4,
+                              color=colour, alpha=0.6, zorder=3)
             number += 1
     return handles
 
 
-def draw_contact_surface(figure, axes, contact, size):
+def draw_contact_surface(figure, axes, run, size):
     """Contact points coloured by the initial gap; its legend if there is no gap at all."""
+    contact = run.contact(0)
     gap = contact["gap"]
     if len(gap) == 0:
         return []
@@ -112,6 +119,6 @@ def draw_contact_surface(figure, axes, contact, size):
         axes.plot(contact["x"], contact["y"], ".", markersize=4, color="#0d0887", zorder=3)
         return [Line2D([], [], color="#0d0887", marker=".", linestyle="", label="contact points, no initial gap")]
     dots = axes.scatter(contact["x"], contact["y"], c=gap, s=9, cmap="plasma", zorder=3, linewidths=0)
-    figure.colorbar(dots, ax=axes, label="initial gap at the contact points", orientation="horizontal",
-                    shrink=0.6, aspect=40, pad=0.02)
+    figure.colorbar(dots, ax=axes, label=run.units.label("initial gap at the contact points", "length"),
+                    orientation="horizontal", shrink=0.6, aspect=40, pad=0.02)
     return []

@@ -158,8 +158,6 @@ def draw_section(mesh, deformed, values, section, scale, shown, cmap="viridis"):
                     + share[..., None] * a.reshape(len(a), -1)[pairs[:, :, 1]] for a in at)
     plane = plane.reshape(-1, 2)
     figure, axes = figure_for(plane)
-    axes.set_xlabel("xyz"[kept[0]])
-    axes.set_ylabel("xyz"[kept[1]])
     raster = Raster(plane, np.zeros(len(plane)), np.arange(len(plane)).reshape(-1, 3))
     colours = ScalarMappable(Normalize(*scale), cmap)
     image = colours.to_rgba(raster.values(field[..., 0]))
