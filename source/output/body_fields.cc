@@ -10,7 +10,6 @@ template <int dim>
 BodyFields<dim>::BodyFields(const FieldParameters &parameters, const bool with_velocity,
                             const bool with_plastic_strain)
 {
-  using Sample = VertexSample<dim>;
   add_vector("displacement", Quantity::length,
              [](const Sample &sample) { return sample.bulk.displacement; });
   if (with_velocity)
@@ -21,63 +20,77 @@ BodyFields<dim>::BodyFields(const FieldParameters &parameters, const bool with_v
   if (parameters.has("strain"))
     add_tensor("strain", Quantity::number, [](const Sample &sample) { return sample.bulk.strain; });
   if (parameters.has("plastic strain") && with_plastic_strain)
-    add("plastic_strain", Quantity::number,
-        [](const Sample &sample) { return sample.bulk.plastic_strain; });
+    add_number("plastic_strain", Quantity::number,
+               [](const Sample &sample) { return sample.bulk.plastic_strain; });
   if (parameters.has("strain energy"))
-    add("strain_energy_density", Quantity::stress,
-        [](const Sample &sample) { return sample.bulk.energy_density; });
+    add_number("strain_energy_density", Quantity::stress,
+               [](const Sample &sample) { return sample.bulk.energy_density; });
   if (parameters.has("volume ratio"))
-    add("volume_ratio", Quantity::number,
-        [](const Sample &sample) { return sample.bulk.volume_ratio; });
-  add("body", Quantity::number, [](const Sample &sample) { return double(sample.body); });
+    add_number("volume_ratio", Quantity::number,
+               [](const Sample &sample) { return sample.bulk.volume_ratio; });
+  add_number("body", Quantity::number, [](const Sample &sample) { return double(sample.body); });
 }
 
 template <int dim>
 void
 BodyFields<dim>::add_stresses()
 {
-  using Sample = VertexSample<dim>;
   add_tensor("stress", Quantity::stress, [](const Sample &sample) { return sample.bulk.stress; });
   if (dim == 2)
-    add("stress_zz", Quantity::stress,
-        [](const Sample &sample) { return sample.bulk.out_of_plane_stress; });
-  add("von_mises", Quantity::stress, [](const Sample &sample) {
+    add_number("stress_zz", Quantity::stress,
+               [](const Sample &sample) { return sample.bulk.out_of_plane_stress; });
+  add_number("von_mises", Quantity::stress, [](const Sample &sample) {
     return von_mises(sample.bulk.stress, sample.bulk.out_of_plane_stress);
   });
+  std::vector<std::string> names;
   for (unsigned int d = 0; d < dim; ++d)
-    add("principal_stress_" + std::to_string(d + 1), Quantity::stress,
-        [d](const Sample &sample) { return eigenvalues(sample.bulk.stress)[d]; });
+    names.push_back("principal_stress_" + std::to_string(d + 1));
+  fields.push_back(
+    {names, Quantity::stress, false, [](const Sample &sample, std::vector<double> &values) {
+       for (const double principal : eigenvalues(sample.bulk.stress))
+         values.push_back(principal);
+     }});
 }
 
 template <int dim>
 void
-BodyFields<dim>::add(const std::string &name, const Quantity quantity, const Value &value)
+BodyFields<dim>::add_number(const std::string &name, const Quantity quantity,
+                            const std::function<double(const Sample &)> &number)
 {
-  fields.push_back({name, quantity, value, 0, false});
+  fields.push_back(
+    {{name}, quantity, false, [number](const Sample &sample, std::vector<double> &values) {
+       values.push_back(number(sample));
+     }});
 }
 
 template <int dim>
 void
-BodyFields<dim>::add_vector(
-  const std::string &name, const Quantity quantity,
-  const std::function<dealii::Tensor<1, dim>(const VertexSample<dim> &)> &vector)
+BodyFields<dim>::add_vector(const std::string &name, const Quantity quantity,
+                            const std::function<dealii::Tensor<1, dim>(const Sample &)> &vector)
 {
-  for (unsigned int d = 0; d < dim; ++d)
-    fields.push_back({name, quantity,
-                      [vector, d](const VertexSample<dim> &sample) { return vector(sample)[d]; }, d,
-                      true});
+  fields.push_back({std::vector<std::string>(dim, name), quantity, true,
+                    [vector](const Sample &sample, std::vector<double> &values) {
+                      const dealii::Tensor<1, dim> all = vector(sample);
+                      values.insert(values.end(), all.begin_raw(), all.end_raw());
+                    }});
 }
 
 template <int dim>
 void
-BodyFields<dim>::add_tensor(
-  const std::string &name, const Quantity quantity,
-  const std::function<dealii::SymmetricTensor<2, dim>(const VertexSample<dim> &)> &tensor)
+BodyFields<dim>::add_tensor(const std::string &name, const Quantity quantity,
+                            const TensorOf &tensor)
 {
+  std::vector<std::string> names;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
-      add(name + "_" + axes[i] + axes[j], quantity,
-          [tensor, i, j](const VertexSample<dim> &sample) { return tensor(sample)[i][j]; });
+      names.push_back(name + "_" + axes[i] + axes[j]);
+  fields.push_back(
+    {names, quantity, false, [tensor](const Sample &sample, std::vector<double> &values) {
+       const dealii::SymmetricTensor<2, dim> all = tensor(sample);
+       for (unsigned int i = 0; i < dim; ++i)
+         for (unsigned int j = i; j < dim; ++j)
+           values.push_back(all[i][j]);
+     }});
 }
 
 template <int dim>
@@ -86,7 +99,7 @@ BodyFields<dim>::names() const
 {
   std::vector<std::string> result;
   for (const Field &field : fields)
-    result.push_back(field.name);
+    result.insert(result.end(), field.names.begin(), field.names.end());
   return result;
 }
 
@@ -96,8 +109,8 @@ BodyFields<dim>::quantities() const
 {
   std::vector<std::pair<std::string, Quantity>> result;
   for (const Field &field : fields)
-    if (field.component == 0)
-      result.emplace_back(field.name, field.quantity);
+    for (unsigned int c = 0; c < (field.is_vector ? 1 : field.names.size()); ++c)
+      result.emplace_back(field.names[c], field.quantity);
   return result;
 }
 
@@ -106,9 +119,13 @@ std::vector<std::pair<unsigned int, std::string>>
 BodyFields<dim>::vectors() const
 {
   std::vector<std::pair<unsigned int, std::string>> result;
-  for (unsigned int f = 0; f < fields.size(); ++f)
-    if (fields[f].is_vector && fields[f].component == 0)
-      result.emplace_back(f, fields[f].name);
+  unsigned int                                      first = 0;
+  for (const Field &field : fields)
+    {
+      if (field.is_vector)
+        result.emplace_back(first, field.names[0]);
+      first += field.names.size();
+    }
   return result;
 }
 
@@ -117,9 +134,9 @@ std::vector<double>
 BodyFields<dim>::values(const VertexSample<dim> &sample) const
 {
   std::vector<double> result;
-  result.reserve(fields.size());
+  result.reserve(32);
   for (const Field &field : fields)
-    result.push_back(field.value(sample));
+    field.append(sample, result);
   return result;
 }
 

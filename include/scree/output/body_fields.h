@@ -41,22 +41,23 @@ public:
   std::vector<double> values(const VertexSample<dim> &sample) const;
 
 private:
-  using Value = std::function<double(const VertexSample<dim> &)>;
+  using Sample = VertexSample<dim>;
+  using Append = std::function<void(const Sample &, std::vector<double> &)>;
   struct Field
   {
-    std::string  name;
-    Quantity     quantity;
-    Value        value;
-    unsigned int component;
-    bool         is_vector;
+    std::vector<std::string> names; //!< of its components
+    Quantity                 quantity;
+    bool                     is_vector;
+    Append                   append; //!< the values
   };
 
-  void add(const std::string &name, const Quantity quantity, const Value &value);
+  using TensorOf = std::function<dealii::SymmetricTensor<2, dim>(const Sample &)>;
+
+  void add_number(const std::string &name, const Quantity quantity,
+                  const std::function<double(const Sample &)> &number);
   void add_vector(const std::string &name, const Quantity quantity,
-                  const std::function<dealii::Tensor<1, dim>(const VertexSample<dim> &)> &vector);
-  void add_tensor(
-    const std::string &name, const Quantity quantity,
-    const std::function<dealii::SymmetricTensor<2, dim>(const VertexSample<dim> &)> &tensor);
+                  const std::function<dealii::Tensor<1, dim>(const Sample &)> &vector);
+  void add_tensor(const std::string &name, const Quantity quantity, const TensorOf &tensor);
   void add_stresses();
 
   std::vector<Field> fields;
