@@ -66,6 +66,27 @@ Bulk<dim>::add_tangent(const PointEvaluator<dim> &, Matrix &) const
 }
 
 template <int dim>
+std::vector<StressIntegral<dim>>
+Bulk<dim>::stress_integrals(const PointEvaluator<dim> &u) const
+{
+  std::vector<StressIntegral<dim>> result(bodies.size());
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    {
+      const CellRule<dim>  points = rule(a);
+      StressIntegral<dim> &sum    = result[space.cells()[a].body];
+      for (unsigned int q = 0; q < points.n_points; ++q)
+        {
+          const double          volume = points.weights[q] * points.weight_scale;
+          const BulkSample<dim> value  = sample(a, points.points[q], u);
+          sum.volume += volume;
+          sum.moved_volume += volume * (1. + trace(value.strain));
+          sum.stress += volume * value.stress;
+        }
+    }
+  return result;
+}
+
+template <int dim>
 void
 Bulk<dim>::set_reference_volumes(const unsigned int active_cell, std::vector<double> &volumes) const
 {

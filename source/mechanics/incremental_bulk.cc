@@ -275,6 +275,29 @@ IncrementalBulk<dim>::sample(const unsigned int active_cell, const dealii::Point
 }
 
 template <int dim>
+std::vector<StressIntegral<dim>>
+IncrementalBulk<dim>::stress_integrals(const PointEvaluator<dim> &u) const
+{
+  const auto                      &piola = answers(u, false).piola;
+  std::vector<StressIntegral<dim>> result(bodies.size());
+  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+    {
+      const CellRule<dim>  cell  = points.rule(a);
+      const double        *shape = points.unit_gradients(a);
+      StressIntegral<dim> &sum   = result[space.cells()[a].body];
+      for (unsigned int q = 0; q < cell.n_points; ++q, shape += space.basis.n_nodes * dim)
+        {
+          const dealii::Tensor<2, dim> F_D    = points.increment(u, a, shape);
+          const double                 volume = cell.weights[q] * cell.weight_scale;
+          sum.moved_volume += volume * determinant(F_D);
+          sum.stress += volume * symmetrize(piola[points.first_point(a) + q] * transpose(F_D));
+        }
+      sum.volume = sum.moved_volume;
+    }
+  return result;
+}
+
+template <int dim>
 const std::vector<typename IncrementVolumes<dim>::CellVolume> &
 IncrementalBulk<dim>::cell_volumes(const PointEvaluator<dim> &u) const
 {

@@ -83,6 +83,11 @@ ContactSummary<dim>::merge(const ContactSummary &other)
   force += other.force;
   moment += other.moment;
   moved_moment += other.moved_moment;
+  virial_a += other.virial_a;
+  virial_b += other.virial_b;
+  strength += other.strength;
+  placed += other.placed;
+  directed += other.directed;
   open += other.open;
   stick += other.stick;
   slip += other.slip;
@@ -97,9 +102,38 @@ ContactSummary<dim>::merge(const ContactSummary &other)
     }
 }
 
+namespace
+{
+/** Adds where the force of a point acts. */
+template <int dim>
+void
+add_place(const ContactPoints<dim> &contact, const unsigned int i,
+          const dealii::Tensor<1, dim> &force, const bool geometry_is_moving,
+          ContactSummary<dim> &summary)
+{
+  const auto            &point = contact.points()[i];
+  dealii::Tensor<1, dim> mean, half_jump;
+  if (geometry_is_moving)
+    {
+      mean      = contact.mean_displacements()[i];
+      half_jump = 0.5 * contact.jumps()[i];
+    }
+  const auto add = [&](const dealii::Tensor<1, dim> &place, dealii::Tensor<2, dim> &virial) {
+    virial += outer_product(force, place);
+  };
+  add(point.feet[0] + (mean - half_jump), summary.virial_a);
+  add(point.feet[1] + (mean + half_jump), summary.virial_b);
+  const double strength = force.norm();
+  summary.strength += strength;
+  summary.placed += strength * (point.position + mean);
+  summary.directed += strength * point.normal;
+}
+} // namespace
+
 template <int dim>
 std::vector<ContactSummary<dim>>
-summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator)
+summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator,
+                  const bool geometry_is_moving)
 {
   using Table         = std::vector<ContactSummary<dim>>;
   constexpr auto none = std::numeric_limits<double>::max();
@@ -116,6 +150,7 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
       summary.moment += moment_of<dim>(point.position, force);
       summary.moved_moment
         += moment_of<dim>(point.position + contact.mean_displacements()[i], force);
+      add_place(contact, i, force, geometry_is_moving, summary);
       // Slivers of the surface carry nothing and would decide which extreme is sampled.
       if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1)
           && contact.gap(i) < summary.minimum_gap)
@@ -213,7 +248,7 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
   template std::vector<std::string>         contact_columns<dim>();                                \
   template std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &);              \
   template std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &,          \
-                                                              const MPI_Comm);                     \
+                                                              const MPI_Comm, const bool);         \
   template bool write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \
                                   const unsigned int);                                             \
   template std::string write_contact_vtu(const ContactPoints<dim> &, const FieldParameters &,      \

@@ -1,8 +1,7 @@
-#include <scree/mechanics/resultant.h>
 #include <scree/output/column_names.h>
 #include <scree/output/long_tables.h>
 
-#include <tuple>
+#include <algorithm>
 
 namespace scree
 {
@@ -44,6 +43,11 @@ LongTables<dim>::contact_columns() const
     names.push_back(name);
   add_axial_names<dim>("moment_a", names);
   add_axial_names<dim>("moment_b", names);
+  add_vector_names<dim>("place", names);
+  add_vector_names<dim>("normal", names);
+  names.push_back("normal_force");
+  names.push_back("tangential_force");
+  add_vector_names<dim>("branch", names);
   if (is_moving)
     add_vector_names<dim>("transfer", names);
   return names;
@@ -60,25 +64,27 @@ LongTables<dim>::body_columns() const
   add_vector_names<dim>("contact_force", names);
   add_axial_names<dim>("contact_moment", names);
   names.push_back("contacts");
+  names.push_back("volume");
+  add_symmetric_names<dim>("stress", names);
+  add_symmetric_names<dim>("force_stress", names);
+  names.push_back("pressure");
   return names;
 }
 
 template <int dim>
-dealii::Tensor<1, 3>
-LongTables<dim>::moment_about(const MeanMotion<dim>     &motion,
-                              const ContactSummary<dim> &summary) const
+std::vector<std::string>
+LongTables<dim>::assembly_columns() const
 {
-  return is_moving
-           ? summary.moved_moment - moment_of<dim>(motion.position, summary.force)
-           : summary.moment - moment_of<dim>(motion.position - motion.displacement, summary.force);
+  std::vector<std::string> names = Assembly<dim>::columns();
+  names.insert(names.begin(), {"step", "time"});
+  return names;
 }
 
 template <int dim>
 void
 LongTables<dim>::add_contact(const double step, const double time, const ContactPair &pair,
-                             const ContactSummary<dim>  &summary,
-                             const dealii::Tensor<1, 3> &moment_a,
-                             const dealii::Tensor<1, 3> &moment_b)
+                             const ContactSummary<dim>          &summary,
+                             const std::vector<GrainState<dim>> &grains)
 {
   contact_rows.push_back({CsvTable::word(step), CsvTable::word(time), pair.name,
                           bodies[pair.a].name, bodies[pair.b].name});
@@ -90,15 +96,41 @@ LongTables<dim>::add_contact(const double step, const double time, const Contact
         summary.stick + summary.slip, summary.max_pressure, summary.open_points,
         summary.stick_points, summary.slip_points})
     row.push_back(CsvTable::word(value));
-  add_axial<dim>(moment_a, row);
-  add_axial<dim>(moment_b, row);
+  add_axial<dim>(-moment_about(grains[pair.a].centroid, summary, is_moving), row);
+  add_axial<dim>(moment_about(grains[pair.b].centroid, summary, is_moving), row);
+  add_vector<dim>(summary.place(), row);
+  add_vector<dim>(summary.normal(), row);
+  row.push_back(CsvTable::word(summary.normal_force()));
+  row.push_back(CsvTable::word(summary.tangential_force()));
+  add_vector<dim>(branch_vector(bodies, pair, summary, grains), row);
+}
+
+template <int dim>
+void
+LongTables<dim>::add_body(const double step, const double time, const std::string &name,
+                          const GrainState<dim> &state)
+{
+  body_rows.push_back({CsvTable::word(step), CsvTable::word(time), name});
+  auto &row = body_rows.back();
+  add_vector<dim>(state.motion.position, row);
+  add_vector<dim>(state.motion.displacement, row);
+  add_axial<dim>(state.motion.rotation, row);
+  add_vector<dim>(state.contact.force, row);
+  add_axial<dim>(state.contact.moment, row);
+  std::vector<double> values = {double(state.n_contacts), state.volume};
+  add_symmetric(state.stress, values);
+  add_symmetric(state.force_stress, values);
+  values.push_back(-trace(state.force_stress) / dim);
+  for (const double value : values)
+    row.push_back(CsvTable::word(value));
 }
 
 template <int dim>
 void
 LongTables<dim>::gather(const double step, const double time, const std::vector<ContactPair> &pairs,
                         const std::vector<ContactSummary<dim>> &summaries,
-                        const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving,
+                        const std::vector<GrainState<dim>>     &grains,
+                        const dealii::BoundingBox<dim> &region, const bool geometry_is_moving,
                         const bool writes)
 {
   contact_rows.clear();
@@ -106,40 +138,22 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
   pairs_of_rows.clear();
   has_pairs |= !pairs.empty();
   is_moving = geometry_is_moving;
-  std::vector<Resultant<dim>> on_body(bodies.size());
-  std::vector<unsigned int>   n_contacts(bodies.size());
   for (unsigned int p = 0; p < pairs.size(); ++p)
     {
-      const auto &[a, b]      = std::tie(pairs[p].a, pairs[p].b);
-      const auto &summary     = summaries[p];
-      const bool  is_closed   = summary.stick_points + summary.slip_points > 0.;
-      const auto  unique_pair = std::make_pair(a, b);
-      if (is_closed)
+      const auto unique_pair = std::make_pair(pairs[p].a, pairs[p].b);
+      if (summaries[p].is_closed())
         met.insert(unique_pair);
       if (!writes || met.count(unique_pair) == 0)
         continue;
-      const dealii::Tensor<1, 3> moment_a = -moment_about(motions[a], summary),
-                                 moment_b = moment_about(motions[b], summary);
-      add_contact(step, time, pairs[p], summary, moment_a, moment_b);
+      add_contact(step, time, pairs[p], summaries[p], grains);
       pairs_of_rows.push_back(unique_pair);
-      on_body[a].force -= summary.force;
-      on_body[b].force += summary.force;
-      on_body[a].moment += moment_a;
-      on_body[b].moment += moment_b;
-      n_contacts[a] += is_closed;
-      n_contacts[b] += is_closed;
     }
-  for (unsigned int b = 0; b < bodies.size() && writes; ++b)
-    {
-      body_rows.push_back({CsvTable::word(step), CsvTable::word(time), bodies[b].name});
-      auto &row = body_rows.back();
-      add_vector<dim>(motions[b].position, row);
-      add_vector<dim>(motions[b].displacement, row);
-      add_axial<dim>(motions[b].rotation, row);
-      add_vector<dim>(on_body[b].force, row);
-      add_axial<dim>(on_body[b].moment, row);
-      row.push_back(CsvTable::word(n_contacts[b]));
-    }
+  if (!writes)
+    return;
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    add_body(step, time, bodies[b].name, grains[b]);
+  assembly_row = Assembly<dim>(region, bodies, pairs, summaries, grains).values();
+  assembly_row.insert(assembly_row.begin(), {step, time});
 }
 
 template <int dim>
@@ -156,6 +170,15 @@ LongTables<dim>::add_transfers(
 }
 
 template <int dim>
+bool
+LongTables<dim>::is_assembly() const
+{
+  return std::count_if(bodies.begin(), bodies.end(),
+                       [](const Body<dim> &body) { return !body.is_rigid(); })
+         > 1;
+}
+
+template <int dim>
 void
 LongTables<dim>::write()
 {
@@ -163,8 +186,12 @@ LongTables<dim>::write()
     body_table = std::make_unique<CsvTable>(directory + "/grains.csv", body_columns());
   if (!contact_table && has_pairs)
     contact_table = std::make_unique<CsvTable>(directory + "/contacts.csv", contact_columns());
+  if (!assembly_table && has_pairs && is_assembly())
+    assembly_table = std::make_unique<CsvTable>(directory + "/assembly.csv", assembly_columns());
   if (contact_table)
     contact_table->add_rows(contact_rows);
+  if (assembly_table)
+    assembly_table->add_row(assembly_row);
   body_table->add_rows(body_rows);
 }
 
@@ -172,15 +199,20 @@ template <int dim>
 bool
 LongTables<dim>::flush()
 {
-  const bool contact_is_written = !contact_table || contact_table->flush();
-  return (!body_table || body_table->flush()) && contact_is_written;
+  const auto is_written
+    = [](const std::unique_ptr<CsvTable> &table) { return !table || table->flush(); };
+  const bool contact_is_written = is_written(contact_table),
+             body_is_written    = is_written(body_table);
+  return is_written(assembly_table) && body_is_written && contact_is_written;
 }
 
 template <int dim>
 LongTablesRecord
 LongTables<dim>::record() const
 {
-  return {contact_table ? contact_table->n_rows() : 0, body_table ? body_table->n_rows() : 0, met};
+  const auto n_rows
+    = [](const std::unique_ptr<CsvTable> &table) { return table ? table->n_rows() : 0; };
+  return {n_rows(contact_table), n_rows(body_table), n_rows(assembly_table), met};
 }
 
 template <int dim>
@@ -193,9 +225,13 @@ LongTables<dim>::resume(const LongTablesRecord &record, const bool geometry_is_m
   met       = record.met;
   body_table
     = std::make_unique<CsvTable>(directory + "/grains.csv", body_columns(), record.n_body_rows);
-  if (has_pairs)
-    contact_table = std::make_unique<CsvTable>(directory + "/contacts.csv", contact_columns(),
-                                               record.n_contact_rows);
+  if (!has_pairs)
+    return;
+  contact_table = std::make_unique<CsvTable>(directory + "/contacts.csv", contact_columns(),
+                                             record.n_contact_rows);
+  if (is_assembly())
+    assembly_table = std::make_unique<CsvTable>(directory + "/assembly.csv", assembly_columns(),
+                                                record.n_assembly_rows);
 }
 
 template class LongTables<2>;

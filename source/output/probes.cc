@@ -30,9 +30,7 @@ sample_columns()
   std::vector<std::string> names(axes.begin(), axes.begin() + dim);
   for (unsigned int d = 0; d < dim; ++d)
     names.push_back("u_" + axes[d]);
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      names.push_back("stress_" + axes[i] + axes[j]);
+  add_symmetric_names<dim>("stress", names);
   if (dim == 2)
     names.push_back("stress_zz");
   names.push_back("von_mises");

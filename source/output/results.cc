@@ -228,13 +228,13 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
       history_names  = history_columns(equilibrium, contact);
       names_left_out = left_out(equilibrium, contact);
     }
-  is_moving                      = kinematics.moves_bodies();
-  const auto           ghosted_u = equilibrium.with_ghosts(u);
-  const auto           summaries = summarise_contact(contact, space->grid.communicator());
-  auto                 motions   = mean_motions(*space, bodies, quadrature, kinematics, ghosted_u);
-  std::vector<double> &values    = history_row;
-  values = {record.time, double(record.step), double(record.newton_iterations),
-            double(record.attempts), double(record.linear_iterations)};
+  is_moving                   = kinematics.moves_bodies();
+  const auto ghosted_u        = equilibrium.with_ghosts(u);
+  const auto summaries        = summarise_contact(contact, space->grid.communicator(), is_moving);
+  auto       motions          = mean_motions(*space, bodies, quadrature, kinematics, ghosted_u);
+  std::vector<double> &values = history_row;
+  values                      = {record.time, double(record.step), double(record.newton_iterations),
+                                 double(record.attempts), double(record.linear_iterations)};
   for (unsigned int p = 0; p < pairs_with_columns(contact).size(); ++p)
     {
       const auto &summary = summaries[p];
@@ -270,7 +270,10 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
       values.push_back(energies.kinetic);
       values.insert(values.end(), record.momenta.begin(), record.momenta.end());
     }
-  long_tables.gather(record.step, record.time, contact.pairs(), summaries, motions, is_moving,
+  const auto grains = grain_states(bodies, contact.pairs(), summaries, motions,
+                                   equilibrium.body_stresses(u), is_moving);
+  long_tables.gather(record.step, record.time, contact.pairs(), summaries, grains,
+                     box_of_grains(*space, *nodes, bodies, quadrature, ghosted_u), is_moving,
                      is_first);
 }
 

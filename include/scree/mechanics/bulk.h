@@ -27,6 +27,15 @@ struct BulkSample
   double                          volume_ratio        = 1.; //!< of present to initial volume
 };
 
+/** The stress of a body integrated over where it is. */
+template <int dim>
+struct StressIntegral
+{
+  double                          volume       = 0.; //!< of the body in the equations [L^dim]
+  double                          moved_volume = 0.; //!< where the displacement brings it [L^dim]
+  dealii::SymmetricTensor<2, dim> stress;            //!< int sigma [force L]
+};
+
 /**
  * The bulk on cut cells: int sigma : grad v over the physical part, of the kind that a Kinematics
  * needs, plus the treatment of small cuts for the stiffness (2 mu + min(lambda, 4 mu)) rho, rho the
@@ -71,6 +80,9 @@ public:
   virtual BulkSample<dim> sample(const unsigned int         active_cell,
                                  const dealii::Point<dim>  &unit_point,
                                  const PointEvaluator<dim> &u) const = 0;
+
+  /** Of each body, on this process: here of sample(), volumes for small strain. */
+  virtual std::vector<StressIntegral<dim>> stress_integrals(const PointEvaluator<dim> &u) const;
 
   /** Adds int b . v at time `time`, b per volume at the start of the run, over the body up to its
    * boundary: see strip_widths. */

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/body_balance.h>
+#include <scree/mechanics/body_stress.h>
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/mechanics/condensation.h>
 #include <scree/mechanics/energy_ledger.h>
@@ -76,7 +77,6 @@ public:
 
   /** Sets the kinetic energy of the state that start_step(), resume() or accept() takes. */
   void set_kinetic_energy(const double energy);
-
   /** r(u) of the last residual() without inertia and contact. */
   Vector forces_without_inertia() const;
 
@@ -172,8 +172,9 @@ public:
   /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
   std::vector<Resultant<dim>> resultants(const Vector &u) const;
 
-  /** What acts on each deformable body at `u`, that of the last residual() (collective). */
+  /** Forces on deformable bodies, their stress, at the u of the last residual() (collective). */
   std::vector<BodyBalance<dim>> balance(const Vector &u) const;
+  std::vector<BodyStress<dim>>  body_stresses(const Vector &u) const;
 
   /** "body.condition", integrals first, then strong ones. */
   std::vector<std::string> condition_names() const;
@@ -219,10 +220,9 @@ private:
   FreeBodies<dim>               free;
   EnergyLedger<dim>             ledger;
 
-  Matrix              stiffness;       //!< A
-  Matrix              newton_matrix;   //!< K
-  Vector              loads;           //!< f
-  Vector              dead_loads;      //!< tractions, pressures and body forces in f
+  Matrix              stiffness, newton_matrix; //!< A and K
+  Vector              loads;                    //!< f
+  Vector              dead_loads;               //!< tractions, pressures and body forces in f
   Vector              start_forces;    //!< of u_n; of a bulk that is not linear by small cuts
   Vector              internal_forces; //!< A u of the last residual()
   Vector              contact_forces;  //!< -R_contact of the last residual()

@@ -46,6 +46,9 @@ public:
   BulkSample<dim> sample(const unsigned int active_cell, const dealii::Point<dim> &unit_point,
                          const PointEvaluator<dim> &u) const override;
 
+  /** int P F_D^T over Omega_n, the Cauchy stress at the end of the step over where bodies are. */
+  std::vector<StressIntegral<dim>> stress_integrals(const PointEvaluator<dim> &u) const override;
+
   /** The projected volumes of active cells at the increment u; of owned ones. */
   const std::vector<CellVolume> &cell_volumes(const PointEvaluator<dim> &u) const;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <string>
 #include <vector>
 
@@ -42,5 +44,25 @@ add_rigid_names(const std::string &prefix, std::vector<std::string> &names)
   add_vector_names<dim>(prefix + ".displacement", names);
   add_axial_names<dim>(prefix + ".rotation", names);
   add_resultant_names<dim>(prefix, names);
+}
+
+/** Names of the components of a symmetric tensor: prefix_xx, prefix_xy, ... */
+template <int dim>
+void
+add_symmetric_names(const std::string &prefix, std::vector<std::string> &names)
+{
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      names.push_back(prefix + "_" + axes[i] + axes[j]);
+}
+
+/** Its components in that order. */
+template <int dim>
+void
+add_symmetric(const dealii::SymmetricTensor<2, dim> &tensor, std::vector<double> &values)
+{
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      values.push_back(tensor[i][j]);
 }
 } // namespace scree

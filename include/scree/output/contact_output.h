@@ -15,12 +15,47 @@ struct ContactSummary
   dealii::Tensor<1, dim> force;  //!< on body b
   dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
   dealii::Tensor<1, 3>   moved_moment; //!< the same with the points where the surface has moved to
+  /** Sums f x^T of the forces f on b at the sides of a and b, where their displacements are taken.
+   */
+  dealii::Tensor<2, dim> virial_a, virial_b;
+  double                 strength = 0.;        //!< sum of the |f| of points [force]
+  dealii::Tensor<1, dim> placed;               //!< sum |f| x [force L]
+  dealii::Tensor<1, dim> directed;             //!< sum |f| n [force]
   double                 minimum_gap = 0.;     //!< smallest gap, negative: penetration [L]
   dealii::Point<dim>     where;                //!< of the smallest gap
   double                 max_penetration = 0.; //!< largest penetration [L]
   double                 max_pressure    = 0.; //!< [force/area]
   double                 open = 0., stick = 0., slip = 0.;      //!< length or area by status
   double open_points = 0., stick_points = 0., slip_points = 0.; //!< number of points by status
+
+  bool is_closed() const
+  {
+    return stick_points + slip_points > 0.;
+  }
+
+  /** Mean of the places of the forces |f|; NaN without any. */
+  dealii::Point<dim> place() const
+  {
+    return dealii::Point<dim>(placed / strength);
+  }
+
+  /** Unit vector of the mean normal, weighted in the same way. */
+  dealii::Tensor<1, dim> normal() const
+  {
+    return directed / directed.norm();
+  }
+
+  /** Along normal(), positive in compression; zero without force. */
+  double normal_force() const
+  {
+    return strength > 0. ? force * normal() : 0.;
+  }
+
+  /** Magnitude of the rest. */
+  double tangential_force() const
+  {
+    return strength > 0. ? (force - normal_force() * normal()).norm() : 0.;
+  }
 
   /** Adds what other points of the same pair do. */
   void merge(const ContactSummary &other);
@@ -29,14 +64,20 @@ struct ContactSummary
   void serialize(Archive &archive, const unsigned int)
   {
     archive &force &moment &moved_moment &minimum_gap &where &max_penetration &max_pressure;
+    archive &virial_a &virial_b &strength &placed                             &directed;
     archive &open &stick &slip &open_points &stick_points                     &slip_points;
   }
 };
 
-/** The summary of every pair after the last evaluation. */
+/**
+ * The summary of every pair after the last evaluation.
+ *
+ * @param geometry_is_moving whether virials and places are where the bodies have moved to
+ */
 template <int dim>
 std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &contact,
-                                                   const MPI_Comm            communicator);
+                                                   const MPI_Comm            communicator,
+                                                   const bool geometry_is_moving = false);
 
 /** Names of the columns of a contact point, see write_contact_csv(). */
 template <int dim>

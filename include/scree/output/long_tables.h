@@ -1,8 +1,7 @@
 #pragma once
 
-#include <scree/output/contact_output.h>
+#include <scree/output/assembly.h>
 #include <scree/output/csv_table.h>
-#include <scree/output/mean_motion.h>
 
 #include <boost/serialization/set.hpp>
 #include <boost/serialization/utility.hpp>
@@ -18,20 +17,21 @@ namespace scree
 /** What the long tables have so far: a run that is resumed goes on after it. */
 struct LongTablesRecord
 {
-  std::size_t                                     n_contact_rows = 0, n_body_rows = 0;
+  std::size_t n_contact_rows = 0, n_body_rows = 0, n_assembly_rows = 0;
   std::set<std::pair<unsigned int, unsigned int>> met; //!< bodies of the pairs that were closed
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &n_contact_rows &n_body_rows &met;
+    archive &n_contact_rows &n_body_rows &n_assembly_rows &met;
   }
 };
 
 /**
  * The tables that grow with the number of bodies by rows, not by columns: contacts.csv, a row per
  * step and pair that is or was closed, with the columns that history.csv has of a pair and more,
- * and grains.csv, a row per step and body. Moments of a contact are about the origin,
+ * grains.csv, a row per step and body, and assembly.csv, a row per step of what an Assembly tells.
+ * Moments of a contact are about the origin,
  * with the points where the geometry of the step has them, and, as moment_a and moment_b, those on
  * the bodies a and b about their centroids; on a moving geometry these are at the end of the step.
  * What the first process gathers is written; the other ones have no files.
@@ -44,19 +44,21 @@ public:
 
   /**
    * Gathers the rows of a step.
-   * @param motions of all bodies
+   * @param grains  of all bodies
+   * @param region  of the assembly
    * @param writes  whether this process writes the tables; the others note which pairs have met
    */
   void gather(const double step, const double time, const std::vector<ContactPair> &pairs,
               const std::vector<ContactSummary<dim>> &summaries,
-              const std::vector<MeanMotion<dim>> &motions, const bool geometry_is_moving,
-              const bool writes);
+              const std::vector<GrainState<dim>> &grains, const dealii::BoundingBox<dim> &region,
+              const bool geometry_is_moving, const bool writes);
 
   /** Adds the changes of the tangential forces of pairs: see MotionRecord. */
   void add_transfers(
     const std::map<std::pair<unsigned int, unsigned int>, dealii::Tensor<1, dim>> &force_jumps);
 
-  /** Writes the gathered rows; contacts.csv only if there are pairs. */
+  /** Writes the gathered rows; contacts.csv only if there are pairs, assembly.csv only with pairs
+   * and at least two deformable bodies. */
   void write();
 
   /** Writes rows that the disk refused before; whether nothing is left. */
@@ -71,19 +73,21 @@ public:
 private:
   std::vector<std::string> contact_columns() const;
   std::vector<std::string> body_columns() const;
-  /** Moment of a contact on its body b about the centroid of a body. */
-  dealii::Tensor<1, 3> moment_about(const MeanMotion<dim>     &motion,
-                                    const ContactSummary<dim> &summary) const;
-  void                 add_contact(const double step, const double time, const ContactPair &pair,
-                                   const ContactSummary<dim> &summary, const dealii::Tensor<1, 3> &moment_a,
-                                   const dealii::Tensor<1, 3> &moment_b);
+  std::vector<std::string> assembly_columns() const;
+  /** Whether there are two deformable bodies. */
+  bool is_assembly() const;
+  void add_contact(const double step, const double time, const ContactPair &pair,
+                   const ContactSummary<dim> &summary, const std::vector<GrainState<dim>> &grains);
+  void add_body(const double step, const double time, const std::string &name,
+                const GrainState<dim> &state);
 
   std::string                                        directory;
   const std::vector<Body<dim>>                      &bodies;
-  std::unique_ptr<CsvTable>                          contact_table, body_table;
+  std::unique_ptr<CsvTable>                          contact_table, body_table, assembly_table;
   std::set<std::pair<unsigned int, unsigned int>>    met;
   bool                                               has_pairs = false, is_moving = false;
   std::vector<std::vector<std::string>>              contact_rows, body_rows; //!< to be written
+  std::vector<double>                                assembly_row;
   std::vector<std::pair<unsigned int, unsigned int>> pairs_of_rows;
 };
 } // namespace scree
