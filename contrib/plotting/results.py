@@ -134,6 +134,11 @@ class BodyMesh:
         """Largest edge of the box around all bodies."""
         return float(np.ptp(self.points, axis=0).max())
 
+    def cell_points(self, chosen):
+        """The numbers of the points that are chosen (a flag for each) and belong to cells of 2D."""
+        used = np.unique(self.triangles())
+        return used[chosen[used]]
+
     def field(self, name):
         if name not in self.fields or self.fields[name].ndim > 1:
             known = ", ".join(sorted(key for key, values in self.fields.items() if values.ndim == 1))
@@ -210,10 +215,26 @@ class RunResults:
         return step
 
     def mesh(self, step):
-        mesh = BodyMesh(self.body_files[step], self.parameters.get("Moving geometry/Update", "none") != "none")
-        mesh.rigid_bodies = np.array([number for number, name in enumerate(self.names("Bodies"))
-                                      if self.is_rigid(name)], dtype=int)
+        mesh = BodyMesh(self.body_files[step], self.is_moving)
+        mesh.rigid_bodies = np.flatnonzero(list(self.bodies().values()))
         return mesh
+
+    @property
+    def is_moving(self):
+        return self.parameters.get("Moving geometry/Update", "none") != "none"
+
+    def bodies(self):
+        """{name: whether it is rigid} in the order of their numbers. Families stand for many bodies: grains.csv has them all;
+        before the first step they are not known, and nothing is."""
+        file = self.directory / "grains.csv"
+        if file.exists():
+            grains = read_table(file)
+            if "stress_xx" in grains:
+                first = grains["step"] == grains["step"][0]
+                return dict(zip(map(str, grains["body"][first]), np.isnan(grains["stress_xx"][first])))
+        if any(self.parameters.get(f"Bodies/{name}/Family", "none") != "none" for name in self.names("Bodies")):
+            return {}
+        return {name: self.is_rigid(name) for name in self.names("Bodies")}
 
     def is_rigid(self, body):
         material = self.parameters.get(f"Bodies/{body}/Material", "")

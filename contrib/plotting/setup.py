@@ -22,12 +22,14 @@ def draw(run):
     figure, axes = figure_for(points, extra=3.5)
     handles = draw_cells(axes, mesh, points)
     edges = outline(mesh)
+    names = list(run.bodies())
     for number in np.unique(mesh.body[edges[:, 0]]):
         own = edges[mesh.body[edges[:, 0]] == number]
-        names = run.names("Bodies")
         axes.add_collection(LineCollection(points[own], colors=body_colour(number), linewidths=1.6))
-        handles.append(Line2D([], [], color=body_colour(number), linewidth=1.6,
-                              label=names[number] if number < len(names) else f"body {number}"))
+        if names:
+            handles.append(Line2D([], [], color=body_colour(number), linewidth=1.6, label=names[number]))
+    if not names:
+        handles.append(Line2D([], [], color=body_colour(0), linewidth=1.6, label=f"{mesh.body.max() + 1} bodies"))
     handles += draw_conditions(axes, run, mesh, points, edges)
     if run.contact_files:
         handles += draw_contact_surface(figure, axes, run, mesh.size)
@@ -40,9 +42,9 @@ def draw(run):
 
 def draw_3d(run, mesh):
     """The bodies' surfaces in their colours."""
-    names = run.names("Bodies")
-    cmap = ListedColormap([body_colour(number) for number in range(len(names))])
-    figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, len(names) - 0.5), cmap=cmap)
+    names, n_bodies = list(run.bodies()), mesh.body.max() + 1
+    cmap = ListedColormap([body_colour(number) for number in range(n_bodies)])
+    figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, n_bodies - 0.5), cmap=cmap)
     axes.legend(handles=[Patch(color=body_colour(number), label=name) for number, name in enumerate(names)],
                 loc="center left", bbox_to_anchor=(1.01, 0.5))
     axes.set_title(run.title + ": set-up")
@@ -79,7 +81,7 @@ def draw_conditions(axes, run, mesh, points, edges):
     corners = [np.array([float(v) for v in run.parameters.get(f"Grid/{corner} corner", "nan,nan").split(",")])
                for corner in ("Lower", "Upper")]
     middle = points[edges].mean(axis=1)
-    for index, body in enumerate(run.names("Bodies")):
+    for index, body in enumerate(run.bodies()):
         section = f"Bodies/{body}/Boundary conditions"
         for name in run.names(section):
             places = [place.strip() for place in run.parameters.get(f"{section}/{name}/On", "").split(",")]

@@ -145,8 +145,20 @@ def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viri
         image[~shown[triangles[:, 0]][raster.triangle]] = to_rgba(RIGID)
     image[:, :, :3] *= light[raster.triangle][:, :, None]
     image[raster.triangle < 0] = 0.0
-    raster.draw(axes, image, raster.outlines(mesh.body[triangles[:, 0]]))
+    outlines = raster.outlines(mesh.body[triangles[:, 0]])
+    if shown is not None and not shown.all() and shown.any():
+        see_through(mesh, plane, nearness, triangles[shown[triangles[:, 0]]], raster, image, outlines, colours, values)
+    raster.draw(axes, image, outlines)
     return figure, axes, colours
+
+
+def see_through(mesh, plane, nearness, triangles, raster, image, outlines, colours, values):
+    """Lets what rigid bodies hide shine through them, with its outlines."""
+    inner = Raster(plane, nearness, triangles)
+    hidden = (inner.triangle >= 0) & (inner.nearness < raster.nearness)
+    behind = colours.to_rgba(inner.values(values[triangles]))
+    image[hidden] = 0.35 * image[hidden] + 0.65 * behind[hidden]
+    outlines |= inner.outlines(mesh.body[triangles[:, 0]]) & (hidden | (inner.triangle < 0)) & (raster.triangle >= 0)
 
 
 def draw_section(mesh, deformed, values, section, scale, shown, cmap="viridis"):

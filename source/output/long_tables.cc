@@ -173,9 +173,9 @@ template <int dim>
 bool
 LongTables<dim>::is_assembly() const
 {
-  return std::count_if(bodies.begin(), bodies.end(),
-                       [](const Body<dim> &body) { return !body.is_rigid(); })
-         > 1;
+  return has_pairs && std::count_if(bodies.begin(), bodies.end(), [](const Body<dim> &body) {
+                        return !body.is_rigid();
+                      }) > 1;
 }
 
 template <int dim>
@@ -186,7 +186,7 @@ LongTables<dim>::write()
     body_table = std::make_unique<CsvTable>(directory + "/grains.csv", body_columns());
   if (!contact_table && has_pairs)
     contact_table = std::make_unique<CsvTable>(directory + "/contacts.csv", contact_columns());
-  if (!assembly_table && has_pairs && is_assembly())
+  if (!assembly_table && is_assembly())
     assembly_table = std::make_unique<CsvTable>(directory + "/assembly.csv", assembly_columns());
   if (contact_table)
     contact_table->add_rows(contact_rows);

@@ -272,6 +272,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
     }
   const auto grains = grain_states(bodies, contact.pairs(), summaries, motions,
                                    equilibrium.body_stresses(u), is_moving);
+  chains            = ForceChains<dim>(bodies, contact.pairs(), summaries, grains);
   long_tables.gather(record.step, record.time, contact.pairs(), summaries, grains,
                      box_of_grains(*space, *nodes, bodies, quadrature, ghosted_u), is_moving,
                      is_first);
@@ -329,6 +330,9 @@ Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kine
     record.time,
     body_output->write(kinematics, ghosted_u, velocities, directory, record.step, record.time),
     "bodies.pvd", body_records);
+  if (is_first && long_tables.is_assembly() && record.step > 0)
+    is_written &= add_picture(record.time, chains.write(directory, record.step, record.time),
+                              "chains.pvd", chain_records);
   for (const auto &probe : probes)
     if (probe.n_points > 1)
       {
@@ -423,6 +427,7 @@ Results<dim>::record() const
   return {body_records,
           contact_records,
           point_records,
+          chain_records,
           history ? history->n_rows() : 0,
           probe_table ? probe_table->n_rows() : 0,
           long_tables.record()};
@@ -436,6 +441,7 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
   body_records    = record.bodies;
   contact_records = record.contact;
   point_records   = record.points;
+  chain_records   = record.chains;
   if (!is_first)
     return;
   const auto names = history_columns(equilibrium, contact);
@@ -453,6 +459,8 @@ Results<dim>::resume(const ResultsRecord &record, const Equilibrium<dim> &equili
     write_pvd("contact.pvd", contact_records);
   if (!point_records.empty())
     write_pvd("points.pvd", point_records);
+  if (!chain_records.empty())
+    write_pvd("chains.pvd", chain_records);
 }
 
 template <int dim>

@@ -64,6 +64,9 @@ public:
   /** Writes rows that the disk refused before; whether nothing is left. */
   bool flush();
 
+  /** Whether there are pairs and two deformable bodies. */
+  bool is_assembly() const;
+
   LongTablesRecord record() const;
 
   /** @throws UserError if the tables do not have what is recorded */
@@ -74,8 +77,6 @@ private:
   std::vector<std::string> contact_columns() const;
   std::vector<std::string> body_columns() const;
   std::vector<std::string> assembly_columns() const;
-  /** Whether there are two deformable bodies. */
-  bool is_assembly() const;
   void add_contact(const double step, const double time, const ContactPair &pair,
                    const ContactSummary<dim> &summary, const std::vector<GrainState<dim>> &grains);
   void add_body(const double step, const double time, const std::string &name,

@@ -4,6 +4,7 @@
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
 #include <scree/output/field_parameters.h>
+#include <scree/output/force_chains.h>
 #include <scree/output/long_tables.h>
 #include <scree/output/probes.h>
 
@@ -47,20 +48,21 @@ struct MotionRecord
 /** What was written so far: a run that is resumed goes on after it. */
 struct ResultsRecord
 {
-  std::vector<std::pair<double, std::string>> bodies, contact, points; //!< of the PVD records
+  std::vector<std::pair<double, std::string>> bodies, contact, points, chains; //!< of PVD
   std::size_t                                 n_history_rows = 0, n_probe_rows = 0;
   LongTablesRecord                            long_tables;
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &bodies &contact &points &n_history_rows &n_probe_rows &long_tables;
+    archive &bodies &contact &points &chains &n_history_rows &n_probe_rows &long_tables;
   }
 };
 
 /**
  * The files of a run: history.csv with a row per load step, see also LongTables, VTU and CSV files
- * of bodies and contact with PVD records, tables of probes and lines. All functions are collective.
+ * of bodies, contact and force chains with PVD records, tables of probes and lines. All functions
+ * are collective.
  */
 template <int dim>
 class Results
@@ -106,7 +108,8 @@ public:
   void write_history();
 
   /**
-   * Body VTU and lines; whether all was written, known to the first process.
+   * VTU of bodies and, of an assembly, force chains; lines; whether all was written, known to the
+   * first process.
    *
    * @param velocities null without inertia
    */
@@ -173,10 +176,12 @@ private:
   bool                                        is_first = false; //!< this process writes the tables
   std::unique_ptr<CsvTable>                   history, probe_table;
   LongTables<dim>                             long_tables;
+  ForceChains<dim>                            chains; //!< of the last gather_history()
   std::vector<std::string>                    history_names;
   std::set<std::string>                       names_left_out;
   bool                                        is_moving = false;
   std::vector<double>                         history_row, probe_row; //!< the last ones
-  std::vector<std::pair<double, std::string>> body_records, contact_records, point_records;
+  std::vector<std::pair<double, std::string>> body_records, contact_records, point_records,
+    chain_records;
 };
 } // namespace scree
