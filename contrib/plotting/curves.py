@@ -66,7 +66,7 @@ def draw_contact(run, step, references, pairs=None):
         panel.set_visible(False)
     for pair, panel in zip(names, panels.ravel()):
         chosen = table["pair"] == pair
-        draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction.get(pair, float("nan")),
+        draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction[pair],
                   references, run.units)
         panel.set_title(pair)
     time = run.time_of(step)

@@ -1,5 +1,6 @@
 """The files that a run of scree leaves in its output directory."""
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -285,12 +286,18 @@ class RunResults:
         return "overlap at the start" not in self.log()
 
     def friction_coefficients(self):
-        """{name: friction coefficient} of the contact pairs, nan without Coulomb friction; the log tells the law."""
-        pairs = {}
+        """{name: friction coefficient} of the contact pairs, nan without Coulomb friction. The log tells the law, but if there
+        are many pairs; then that of the input counts, if there is one for all."""
+        def of_law(section):
+            return float(self.parameters.get(f"Contact/{section}/Friction coefficient", "nan"))
+
+        laws = self.names("Contact")
+        is_for_all = len(laws) == 1 and self.parameters.get(f"Contact/{laws[0]}/Bodies", "*, *").replace(" ", "") == "*,*"
+        is_coulomb = is_for_all and self.parameters.get(f"Contact/{laws[0]}/Law", "") == "coulomb"
+        pairs = defaultdict(lambda: of_law(laws[0]) if is_coulomb else float("nan"))
         for line in self.log().splitlines():
             match = re.match(r"Contact (.+): (\w+) \('(.*)'\)", line)
             if match:
                 name, law, section = match.groups()
-                text = self.parameters.get(f"Contact/{section}/Friction coefficient", "nan")
-                pairs[name] = float(text) if law == "coulomb" else float("nan")
+                pairs[name] = of_law(section) if law == "coulomb" else float("nan")
         return pairs
