@@ -89,17 +89,18 @@ table_calls(const std::string &formula, const std::string &where)
 {
   const std::string      name = "table(";
   std::vector<TableCall> calls;
-  for (std::size_t begin = formula.find(name); begin != std::string::npos;
-       begin             = formula.find(name, begin + name.size()))
+  for (std::size_t begin = formula.find(name); begin != std::string::npos;)
     {
-                  const auto end = formula.find(')', begin);
-                  require(end != std::string::npos, where, "'" + formula + "' has a table without an end",
-                          "write table(load.csv)");
-                  const std::string inside = formula.substr(begin + name.size(), end - begin - name.size());
-                  const auto        comma  = inside.find(',');
-                  calls.push_back(
-                    {begin, end + 1 - begin, dealii::Utilities::trim(inside.substr(0, comma)),
-         comma == std::string::npos ? "" : dealii::Utilities::trim(inside.substr(comma + 1))});
+      const auto end = formula.find(')', begin);
+      require(end != std::string::npos, where, "'" + formula + "' has a table without an end",
+              "write table(load.csv)");
+      const std::string inside = formula.substr(begin + name.size(), end - begin - name.size());
+      const auto        comma  = inside.find(',');
+      const std::string file   = dealii::Utilities::trim(inside.substr(0, comma));
+      const std::string checksum
+        = comma == std::string::npos ? "" : dealii::Utilities::trim(inside.substr(comma + 1));
+      calls.push_back({begin, end + 1 - begin, file, checksum});
+      begin = formula.find(name, end);
     }
   return calls;
 }

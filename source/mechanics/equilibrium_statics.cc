@@ -179,7 +179,8 @@ bool
 Equilibrium<dim>::is_geometric(const Vector &r, const double tolerance) const
 {
   constexpr double accuracy = 1e-4;
-  if (free_bodies().empty())
+  constexpr double far      = 1e-2; // from what such moments can be
+  if (free_bodies().empty() || r.l2_norm() > far * force_scale())
     return false;
   const auto [moments, factor] = free.misplaced_moments(free.resultants(r), accuracy);
   if (moments.empty() || factor < 1.)

@@ -165,20 +165,11 @@ void
 FreeBodies<dim>::find_couplings()
 {
   coordinates_of_pair.resize(contact.pairs().size());
-  dealii::DynamicSparsityPattern pattern(n_coordinates, n_coordinates);
   for (unsigned int p = 0; p < contact.pairs().size(); ++p)
-    {
-      auto &coordinates = coordinates_of_pair[p];
-      for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
-        if (const unsigned int i = number_of[body]; i != none)
-          for (unsigned int k = 0; k < bases[i].n(); ++k)
-            coordinates.push_back(first[i] + k);
-      for (const unsigned int k : coordinates)
-        pattern.add_entries(k, coordinates.begin(), coordinates.end());
-    }
-  for (unsigned int k = 0; k < n_coordinates; ++k)
-    pattern.add(k, k);
-  couplings.copy_from(pattern);
+    for (const unsigned int body : {contact.pairs()[p].a, contact.pairs()[p].b})
+      if (const unsigned int i = number_of[body]; i != none)
+        for (unsigned int k = 0; k < bases[i].n(); ++k)
+          coordinates_of_pair[p].push_back(first[i] + k);
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <scree/solver/line_search.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_solver.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -41,7 +42,12 @@ struct FreeBodies<dim>::Balance
   /** Whether contact carries less than half of what acts on some body. */
   bool has_lost_contact() const;
 
-  dealii::SparseMatrix<double> stiffness() const;
+  /** Calls act(pair, entries of its block) for the pairs that resist. */
+  template <typename F>
+  void for_each_resisting(const F &act) const;
+
+  /** The entries of K: without those of open pairs its factors stay sparse. */
+  dealii::SparsityPattern pattern() const;
 
   /**
    * dq of (K + s M) dq = F, not longer than `length`, with the smallest s in steps of 10 that
@@ -191,18 +197,33 @@ FreeBodies<dim>::Balance::has_lost_contact() const
 }
 
 template <int dim>
-dealii::SparseMatrix<double>
-FreeBodies<dim>::Balance::stiffness() const
+template <typename F>
+void
+FreeBodies<dim>::Balance::for_each_resisting(const F &act) const
 {
-  dealii::SparseMatrix<double> result(free.couplings);
   for (unsigned int p = 0; p < first_of_pair.size(); ++p)
     {
-      const auto &coordinates = free.coordinates_of_pair[p];
-      for (unsigned int k = 0; k < coordinates.size(); ++k)
-        for (unsigned int l = 0; l < coordinates.size(); ++l)
-          result.add(coordinates[k], coordinates[l],
-                     blocks[first_of_pair[p] + k * coordinates.size() + l]);
+      const auto        n     = free.coordinates_of_pair[p].size();
+      const auto *const block = blocks.data() + first_of_pair[p];
+      if (std::any_of(block, block + n * n, [](const double entry) { return entry != 0.; }))
+        act(p, block);
     }
+}
+
+template <int dim>
+dealii::SparsityPattern
+FreeBodies<dim>::Balance::pattern() const
+{
+  dealii::DynamicSparsityPattern entries(free.n_coordinates, free.n_coordinates);
+  for (unsigned int k = 0; k < free.n_coordinates; ++k)
+    entries.add(k, k);
+  for_each_resisting([&](const unsigned int p, const double *) {
+    const auto &coordinates = free.coordinates_of_pair[p];
+    for (const unsigned int k : coordinates)
+      entries.add_entries(k, coordinates.begin(), coordinates.end());
+  });
+  dealii::SparsityPattern result;
+  result.copy_from(entries);
   return result;
 }
 
@@ -210,7 +231,14 @@ template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::Balance::direction(const double length, const double damping)
 {
-  const auto K = stiffness();
+  const dealii::SparsityPattern couplings = pattern();
+  dealii::SparseMatrix<double>  K(couplings);
+  for_each_resisting([&](const unsigned int p, const double *block) {
+    const auto &coordinates = free.coordinates_of_pair[p];
+    for (const unsigned int k : coordinates)
+      for (const unsigned int l : coordinates)
+        K.add(k, l, *block++);
+  });
   // Alone, M would allow `length` with this s.
   double alone = 0., stiffest = 0.;
   for (unsigned int k = 0; k < mass.size(); ++k)

@@ -81,15 +81,10 @@ BodyFields<dim>::add_tensor(const std::string &name, const Quantity quantity,
                             const TensorOf &tensor)
 {
   std::vector<std::string> names;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      names.push_back(name + "_" + axes[i] + axes[j]);
+  add_symmetric_names<dim>(name, names);
   fields.push_back(
     {names, quantity, false, [tensor](const Sample &sample, std::vector<double> &values) {
-       const dealii::SymmetricTensor<2, dim> all = tensor(sample);
-       for (unsigned int i = 0; i < dim; ++i)
-         for (unsigned int j = i; j < dim; ++j)
-           values.push_back(all[i][j]);
+       add_symmetric<dim>(tensor(sample), values);
      }});
 }
 

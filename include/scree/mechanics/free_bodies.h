@@ -236,6 +236,5 @@ private:
   std::vector<unsigned int>                    number_of; //!< of each body among the free ones
   unsigned int                                 n_coordinates = 0;
   std::vector<std::vector<unsigned int>>       coordinates_of_pair; //!< of a, then of b
-  dealii::SparsityPattern                      couplings;           //!< of the coordinates by pairs
 };
 } // namespace scree
