@@ -84,8 +84,8 @@ TEST(LongTablesMPI, CollectiveCallsDoNotGrowWithTheBodies)
 {
   const unsigned int n_of_nine = collectives_of_tables(3);
   EXPECT_EQ(n_of_nine, collectives_of_tables(6));
-  // Packed summaries are broadcast with their size; sums of vectors have calls of their own.
-  EXPECT_LE(n_of_nine, 20u);
+  // 20 of one process, 33 of two: most compare the maps of vectors that are added.
+  EXPECT_LE(n_of_nine, 40u);
 }
 
 /** The number of collective calls of an iteration of Newton's method on free discs, one of which
