@@ -83,9 +83,9 @@ def rose(run, step, contacts):
     distribution, and the ellipse-like curve 1 + 4 (F - I/2) : n n of the fabric tensor."""
     inner = ~contacts["at_wall"]
     normal, force = contacts["normal"][inner], contacts["force"][inner]
-    angle = np.arctan2(normal[:, 1], normal[:, 0]) % np.pi
-    n_sectors = int(np.clip(len(force) // 4, 6, 18))  # in half a turn
-    edges = np.linspace(0.0, np.pi, n_sectors + 1)
+    n_sectors = 2 * int(np.clip(len(force) // 8, 3, 9))  # in half a turn, some around both axes
+    edges = np.linspace(0.0, np.pi, n_sectors + 1) - 0.5 * np.pi / n_sectors
+    angle = (np.arctan2(normal[:, 1], normal[:, 0]) - edges[0]) % np.pi + edges[0]
     around = np.linspace(0.0, 2.0 * np.pi, 361)
     direction = np.stack([np.cos(around), np.sin(around)], axis=1)
     figure, panels = plt.subplots(1, 2, figsize=(10.0, 5.4), subplot_kw={"projection": "polar"})

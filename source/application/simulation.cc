@@ -93,7 +93,7 @@ void
 Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
   step_control.accept(attempt.record.newton_iterations);
-  write_results(attempt);
+  write_results(attempt.record);
   const double done = step_control.time() / parameters.time.end_time;
   report.step(attempt.record, model.problem().contact(), communicator, done,
               wall_time * (1. - done) / (done - fraction_at_restart));
@@ -103,6 +103,7 @@ Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
       const auto motion = model.move_geometry(std::move(attempt.points), step_control.step_size());
       results.set_discretization(model.problem().space, model.problem().level_set_nodes);
       results.gather_motion(motion);
+      write_points(attempt.record);
     }
   results.write_history();
   save_if_due();
@@ -128,22 +129,18 @@ Simulation<dim>::try_again(const Attempt<dim> &attempt)
 
 template <int dim>
 void
-Simulation<dim>::write_results(const Attempt<dim> &attempt)
+Simulation<dim>::write_results(const StepRecord &record)
 {
-  const StepRecord           &record = attempt.record;
   const Timings::Scope        scope(run_log.timings, "output");
   const DiscreteProblem<dim> &problem = model.problem();
   const auto                 &u       = model.state().displacement;
   const auto                  ghosted = problem.equilibrium().with_ghosts(u);
-  const bool                  is_last = step_control.finished();
-  const auto                  is_due
-    = [&](const unsigned int every) { return every > 0 && (record.step % every == 0 || is_last); };
   if (model.is_moving()) // Closing contact may have moved it.
     results.set_discretization(problem.space, problem.level_set_nodes);
   results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature, u);
   results.write_probes(record, *problem.kinematics, ghosted);
   bool is_written = true;
-  if (is_due(parameters.output.fields_every))
+  if (is_due(parameters.output.fields_every, record))
     {
       std::optional<VelocityField<dim>> velocities;
       if (problem.mass)
@@ -151,10 +148,32 @@ Simulation<dim>::write_results(const Attempt<dim> &attempt)
       is_written &= results.write_fields(record, *problem.kinematics, ghosted,
                                          velocities ? &*velocities : nullptr);
     }
-  if (is_due(parameters.output.contact_every))
+  if (is_due(parameters.output.contact_every, record))
     is_written &= results.write_contact(record, problem.contact());
-  if (is_due(parameters.output.points_every))
-    is_written &= results.write_points(record, attempt.points, problem.mass != nullptr);
+  warn_unless(is_written);
+}
+
+template <int dim>
+bool
+Simulation<dim>::is_due(const unsigned int every, const StepRecord &record) const
+{
+  return every > 0 && (record.step % every == 0 || step_control.finished());
+}
+
+template <int dim>
+void
+Simulation<dim>::write_points(const StepRecord &record)
+{
+  const Timings::Scope scope(run_log.timings, "output");
+  warn_unless(
+    !is_due(parameters.output.points_every, record)
+    || results.write_points(record, model.state().points, model.problem().mass != nullptr));
+}
+
+template <int dim>
+void
+Simulation<dim>::warn_unless(const bool is_written)
+{
   if (!is_written)
     run_log.log.line("Warning: pictures of this step cannot be written (is the disk full?)");
 }

@@ -75,8 +75,8 @@ read_bytes(const std::string &path, const std::size_t largest_size, const std::s
 {
   std::error_code       error;
   const fs::file_status status = fs::status(path, error);
-  require(!error && fs::exists(status) && !fs::is_directory(status), where,
-          "cannot open the file '" + path + "'", remedy);
+  require(!error && fs::exists(status), where, "cannot open the file '" + path + "'", remedy);
+  require(!fs::is_directory(status), where, "'" + path + "' is a directory", "name a file");
   require(fs::is_regular_file(status), where,
           "'" + path + "' is no regular file but a pipe or a device",
           "write the " + what + " to a file");

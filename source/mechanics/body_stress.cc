@@ -44,6 +44,23 @@ add_nodal_forces(const DisplacementSpace<dim>                &space,
       }
 }
 
+/** The tractions of a mean support at the points of its region: linear in the position. */
+template <int dim>
+std::vector<dealii::Tensor<1, dim>>
+spread(const BoundaryRegion<dim> &region, const Resultant<dim> &resultant)
+{
+  const double moment = resultant.moment[2] - moment_of<dim>(region.centre, resultant.force)[2];
+  std::vector<dealii::Tensor<1, dim>> tractions;
+  for (const auto &point : region.points)
+    {
+      const dealii::Tensor<1, dim> arm = point.position - region.centre;
+      tractions.push_back(resultant.force / region.area);
+      tractions.back()[0] -= moment / region.polar_moment * arm[1];
+      tractions.back()[1] += moment / region.polar_moment * arm[0];
+    }
+  return tractions;
+}
+
 template <int dim>
 void
 sum_over_processes(std::vector<BodyStress<dim>> &sums, const MPI_Comm communicator)
@@ -86,10 +103,13 @@ Equilibrium<dim>::body_stresses(const Vector &u) const
   at_nodes.compress(dealii::VectorOperation::add);
   add_nodal_forces(space, at_nodes, displacement, motion, result);
 
+  const auto resultants = boundary_terms.resultants(seen_by_bulk, time);
   for (unsigned int r = 0; r < boundary_terms.regions().size(); ++r)
     {
       const auto &region    = boundary_terms.regions()[r];
-      const auto  tractions = boundary_terms.tractions(r, seen_by_bulk, time);
+      auto        tractions = boundary_terms.tractions(r, seen_by_bulk, time);
+      if (region.condition->n_multipliers() > 0)
+        tractions = spread(region, resultants[r]);
       for (unsigned int q = 0; q < tractions.size(); ++q)
         {
           const auto &point = region.points[q];

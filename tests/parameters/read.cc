@@ -168,7 +168,7 @@ TEST_F(ParameterFiles, MissingFilesAndCyclesAreErrors)
   EXPECT_EQ(reading_error((path / "none.prm").string()),
             "none.prm: cannot open the file 'none.prm'\n  remedy: check the path");
   EXPECT_EQ(reading_error((path / "common").string()),
-            "common: cannot open the file 'common'\n  remedy: check the path");
+            "common: 'common' is a directory\n  remedy: name a file");
   EXPECT_EQ(reading_error(write_file("a.prm", "\ninclude common/none.prm\n")),
             "a.prm:2: cannot open the file 'common/none.prm'\n"
             "  remedy: the path of an included file is relative to the file that includes it");

@@ -59,7 +59,12 @@ private:
   void finish_step(Attempt<dim> &attempt, const double wall_time);
   /** Prepares another attempt of a step: in another way, or of a shorter step. */
   void try_again(const Attempt<dim> &attempt);
-  void write_results(const Attempt<dim> &attempt);
+  void write_results(const StepRecord &record);
+  /** Of the moved geometry. */
+  void write_points(const StepRecord &record);
+  /** Whether what is written every so many steps is to be written. */
+  bool is_due(const unsigned int every, const StepRecord &record) const;
+  void warn_unless(const bool is_written);
   void save_if_due();
   /** Saves and @throws Interrupted if a signal asked for it (collective). */
   void end_if_interrupted();
