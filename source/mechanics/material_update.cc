@@ -1,4 +1,5 @@
 #include <scree/mechanics/material_update.h>
+#include <scree/mechanics/point_neighbours.h>
 #include <scree/points/migration.h>
 #include <scree/points/seeding.h>
 #include <scree/points/splitting.h>
@@ -35,8 +36,11 @@ distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParam
   for (const auto &location : locate_points(space, points))
     cell_size.push_back(largest_spread * space.cell_size(location.active_cell));
   const unsigned int degree = space.basis.degree;
-  split_points(points, cell_size, parameters.points_of_cell(degree),
-               {parameters.least_squares_degree(degree), parameters.support});
+  split_points<dim>(
+    points, cell_size, parameters.points_of_cell(degree),
+    {parameters.least_squares_degree(degree), parameters.support},
+    [&](const MaterialPoints<dim> &own) { return with_neighbours(space, parameters.support, own); },
+    space.grid.communicator());
   // The parts of a point may lie in cells of other processes.
   send_to_owners<dim>(points, owner, space.grid.communicator());
 }

@@ -2,15 +2,14 @@
 #include <scree/base/log.h>
 #include <scree/material/increment_response.h>
 #include <scree/material/logarithmic_strain.h>
+#include <scree/mechanics/point_neighbours.h>
 #include <scree/mechanics/step_start.h>
-#include <scree/points/migration.h>
 #include <scree/points/splitting.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace scree
 {
@@ -144,7 +143,7 @@ StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadratu
   if (points.n_internal() > 0
       || parameters.deformation == DeformationTransfer::moving_least_squares)
     {
-      collect_neighbours();
+      cloud = with_neighbours(space, parameters.support, own_points);
       moving_least_squares.emplace(scree::moving_least_squares(
         cloud, {parameters.least_squares_degree(space.basis.degree), parameters.support, true}));
     }
@@ -227,45 +226,6 @@ StepStart<dim>::set_internal(const PointInCell<dim> &point, const double *intern
   if (has_plastic_strain(law) && history.alpha > 0.)
     set_plastic_strains<dim>(law, load_tensor(internal + 7),
                              projected_gradient(point, history.deformation_gradient), history);
-}
-
-template <int dim>
-void
-StepStart<dim>::collect_neighbours()
-{
-  cloud               = own_points;
-  const MPI_Comm comm = space.grid.communicator();
-  if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1)
-    return;
-  // A radius that has grown six times by 1.25 is 3.8 times the first one.
-  double largest_size = 0.;
-  for (const ActiveCell &cell : space.cells())
-    largest_size = std::max(largest_size, space.grid.cells()[cell.grid_cell].size);
-  for (std::size_t p = 0; p < own_points.size(); ++p)
-    largest_size = std::max(largest_size, own_points.spacing(p));
-  const double reach  = 4. * parameters.support * dealii::Utilities::MPI::max(largest_size, comm);
-  const auto   others = neighbours_from_others<dim>(
-    own_points,
-    [&](const dealii::Point<dim> &x) {
-      // The processes of a lattice of probes as fine as the cells are.
-      const int              n = static_cast<int>(std::ceil(reach / space.grid.finest_size()));
-      std::set<unsigned int> ranks;
-      const int              stride = std::max(1, n / 4);
-      for (int i = -n; i <= n; i += stride)
-        for (int j = -n; j <= n; j += stride)
-          for (int k = dim == 3 ? -n : 0; k <= (dim == 3 ? n : 0); k += stride)
-            {
-              dealii::Point<dim> probe = x;
-              probe[0] += i * space.grid.finest_size();
-              probe[1] += j * space.grid.finest_size();
-              probe[dim - 1] += dim == 3 ? k * space.grid.finest_size() : 0.;
-              ranks.insert(space.grid.locate(probe).rank);
-            }
-      return std::vector<unsigned int>(ranks.begin(), ranks.end());
-    },
-    comm);
-  for (std::size_t i = 0; i < others.size(); ++i)
-    cloud.add_copy(others, i);
 }
 
 template <int dim>

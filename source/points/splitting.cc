@@ -1,5 +1,7 @@
 #include <scree/points/splitting.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -84,7 +86,9 @@ moving_least_squares(const MaterialPoints<dim> &points, const MovingLeastSquares
 template <int dim>
 SplittingReport
 split_points(MaterialPoints<dim> &points, const std::vector<double> &cell_size,
-             const unsigned int n_per_direction, const MovingLeastSquaresOptions &options)
+             const unsigned int n_per_direction, const MovingLeastSquaresOptions &options,
+             const std::function<MaterialPoints<dim>(const MaterialPoints<dim> &)> &with_neighbours,
+             const MPI_Comm                                                         comm)
 {
   AssertDimension(cell_size.size(), points.size());
   constexpr unsigned int n_children = 1 << dim;
@@ -96,10 +100,11 @@ split_points(MaterialPoints<dim> &points, const std::vector<double> &cell_size,
       std::vector<bool> kept(n_old);
       for (std::size_t i = 0; i < n_old; ++i)
         kept[i] = points.spacing(i) * n_per_direction <= size[i] * (1. + 1e-10);
-      if (std::find(kept.begin(), kept.end(), false) == kept.end())
+      const bool is_left = std::find(kept.begin(), kept.end(), false) != kept.end();
+      if (dealii::Utilities::MPI::max(static_cast<unsigned int>(is_left), comm) == 0)
         return report;
 
-      const MaterialPoints<dim> old = points;
+      const MaterialPoints<dim> old = with_neighbours(points);
       std::vector<double>       kept_size;
       Targets<dim>              targets;
       for (std::size_t i = 0; i < n_old; ++i)
@@ -128,8 +133,12 @@ template MovingLeastSquares<2> moving_least_squares(const MaterialPoints<2> &,
                                                     const MovingLeastSquaresOptions &);
 template MovingLeastSquares<3> moving_least_squares(const MaterialPoints<3> &,
                                                     const MovingLeastSquaresOptions &);
-template SplittingReport       split_points(MaterialPoints<2> &, const std::vector<double> &,
-                                            const unsigned int, const MovingLeastSquaresOptions &);
-template SplittingReport       split_points(MaterialPoints<3> &, const std::vector<double> &,
-                                            const unsigned int, const MovingLeastSquaresOptions &);
+template SplittingReport
+split_points(MaterialPoints<2> &, const std::vector<double> &, const unsigned int,
+             const MovingLeastSquaresOptions &,
+             const std::function<MaterialPoints<2>(const MaterialPoints<2> &)> &, const MPI_Comm);
+template SplittingReport
+split_points(MaterialPoints<3> &, const std::vector<double> &, const unsigned int,
+             const MovingLeastSquaresOptions &,
+             const std::function<MaterialPoints<3>(const MaterialPoints<3> &)> &, const MPI_Comm);
 } // namespace scree

@@ -198,7 +198,9 @@ check_splitting()
   std::vector<double> cell_size;
   for (const auto &x : points.position)
     cell_size.push_back((x[0] < 0.5 && x[1] < 0.5 ? 0.6 : 2.1) / n);
-  const auto report = split_points(points, cell_size, 2, {1, 1.75});
+  const auto report = split_points<dim>(
+    points, cell_size, 2, {1, 1.75}, [](const MaterialPoints<dim> &own) { return own; },
+    MPI_COMM_SELF);
 
   const unsigned int n_first  = before[0].count / 4; // points of the quarter, two generations
   const unsigned int children = 1 << dim;

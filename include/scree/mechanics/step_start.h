@@ -97,7 +97,6 @@ public:
 private:
   void require_admissible(const PointInCell<dim> &point, const dealii::Tensor<2, dim> &F) const;
   PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
-  void         collect_neighbours();
   /** F_n; `of_cloud` are the weights of these points, empty if F_n is not from the cloud. */
   std::vector<dealii::Tensor<2, dim>>
        deformation_gradients(const std::vector<PointInCell<dim>> &points,
