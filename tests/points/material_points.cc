@@ -298,6 +298,37 @@ TEST(MigrationMPI, nothing_is_lost)
   check_migration<2>();
   check_migration<3>();
 }
+
+/** The points in the slab of this process. */
+template <int dim>
+MaterialPoints<dim>
+own_slab(const MaterialPoints<dim> &all)
+{
+  const unsigned int  n_processes = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  MaterialPoints<dim> own(all.n_internal());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (std::min(static_cast<unsigned int>(all.position[i][0] * n_processes), n_processes - 1)
+        == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
+      own.add_copy(all, i);
+  return own;
+}
+
+/** The processes whose slabs are nearer than a radius. */
+template <int dim>
+std::function<std::vector<unsigned int>(const Point<dim> &)>
+takers_within(const double radius)
+{
+  return [radius](const Point<dim> &x) {
+    const unsigned int        n_processes = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    std::vector<unsigned int> ranks;
+    for (unsigned int rank = 0; rank < n_processes; ++rank)
+      if (x[0] > double(rank) / n_processes - radius
+          && x[0] < double(rank + 1) / n_processes + radius)
+        ranks.push_back(rank);
+    return ranks;
+  };
+}
+
 // Moving least squares from own points and copies of the others' near the boundary between the
 // processes are those from all points.
 template <int dim>
@@ -308,19 +339,10 @@ check_neighbours()
   const unsigned int  me          = Utilities::MPI::this_mpi_process(comm);
   const unsigned int  n_processes = Utilities::MPI::n_mpi_processes(comm);
   const double        cell_size = 0.1, radius = 1.75 * cell_size, slab = 1. / n_processes;
-  const auto          all = make_points<dim>(12, 1, 1);
-  MaterialPoints<dim> own(1);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (std::min(static_cast<unsigned int>(all.position[i][0] / slab), n_processes - 1) == me)
-      own.add_copy(all, i);
-  const auto takers = [&](const Point<dim> &x) {
-    std::vector<unsigned int> ranks;
-    for (unsigned int rank = 0; rank < n_processes; ++rank)
-      if (x[0] > rank * slab - radius && x[0] < (rank + 1) * slab + radius)
-        ranks.push_back(rank);
-    return ranks;
-  };
-  const auto others = neighbours_from_others<dim>(own, takers, comm);
+  const auto          all    = make_points<dim>(12, 1, 1);
+  MaterialPoints<dim> own    = own_slab(all);
+  const auto          takers = takers_within<dim>(radius);
+  const auto          others = neighbours_from_others<dim>(own, takers, comm);
   EXPECT_EQ(others.size() > 0, n_processes > 1);
   EXPECT_LT(own.size() + others.size(), all.size() + (n_processes == 1));
   for (std::size_t i = 0; i < others.size(); ++i)
@@ -348,6 +370,40 @@ TEST(MigrationMPI, neighbours_of_targets)
 {
   check_neighbours<2>();
   check_neighbours<3>();
+}
+
+// Points that are divided beside those of other processes get what they get on one.
+TEST(MigrationMPI, Division)
+{
+  constexpr unsigned int n   = 12;
+  auto                   all = make_points<2>(n, 1, 1);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all.internal[i] = std::exp(2. * all.position[i][0]);
+  auto       own = own_slab(all);
+  const auto divide
+    = [&](MaterialPoints<2> &points, const auto &with_neighbours, const MPI_Comm comm) {
+        split_points<2>(points, std::vector<double>(points.size(), 1. / n), 2, {1, 1.75},
+                        with_neighbours, comm);
+      };
+  divide(
+    all, [](const MaterialPoints<2> &points) { return points; }, MPI_COMM_SELF);
+  divide(
+    own,
+    [](const MaterialPoints<2> &points) {
+      auto       cloud  = points;
+      const auto others = neighbours_from_others<2>(points, takers_within<2>(0.5), MPI_COMM_WORLD);
+      for (std::size_t i = 0; i < others.size(); ++i)
+        cloud.add_copy(others, i);
+      return cloud;
+    },
+    MPI_COMM_WORLD);
+  const auto expected = own_slab(all);
+  ASSERT_EQ(own.size(), expected.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      EXPECT_NEAR((own.position[i] - expected.position[i]).norm(), 0., 1e-14);
+      EXPECT_NEAR(own.internal[i], expected.internal[i], 1e-12);
+    }
 }
 } // namespace
 } // namespace scree
