@@ -77,11 +77,16 @@ TimeTable::value(const double time) const
   return v0 + (std::clamp(time, first, last) - t0) / (t1 - t0) * (v1 - v0);
 }
 
+std::string
+read_time_table_bytes(const std::string &path)
+{
+  return read_bytes(path, largest_time_table, path, "check the path", "a table");
+}
+
 TimeTable
 read_time_table(const std::string &path)
 {
-  return TimeTable(read_text_file(path, largest_time_table, path, "check the path", "a table"),
-                   path);
+  return TimeTable(checked_text(read_time_table_bytes(path), path), path);
 }
 
 std::vector<TableCall>

@@ -1,23 +1,11 @@
 #include <scree/geometry/capsule.h>
+#include <scree/geometry/segment.h>
 
 #include <algorithm>
 
 namespace scree
 {
 using namespace dealii;
-
-namespace
-{
-template <int dim>
-double
-distance_to_segment(const Point<dim> &x, const Point<dim> &a, const Point<dim> &b)
-{
-  const Tensor<1, dim> side   = b - a;
-  const double         square = side.norm_square();
-  const double         t      = square > 0 ? std::clamp((x - a) * side / square, 0., 1.) : 0.;
-  return x.distance(a + t * side);
-}
-} // namespace
 
 template <int dim>
 ShapeFamily<dim>

@@ -1,4 +1,5 @@
 #include <scree/geometry/polygon_sides.h>
+#include <scree/geometry/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,6 @@ namespace
 {
 /** Parts of a length that are rounding. */
 constexpr double rounding = 1e-12;
-
-double
-distance_to_side(const Point<2> &x, const Point<2> &a, const Point<2> &b)
-{
-  const Tensor<1, 2> side   = b - a;
-  const double       square = side.norm_square();
-  const double       s      = square > 0 ? std::clamp((x - a) * side / square, 0., 1.) : 0.;
-  return x.distance(a + s * side);
-}
 
 /** Twice the area of the triangle a, b, c; positive if it turns to the left. */
 double
@@ -36,7 +28,7 @@ segments_meet(const Point<2> &a, const Point<2> &b, const Point<2> &c, const Poi
   if (abc * abd < 0 && cda * cdb < 0)
     return true;
   const auto on_segment = [](const Point<2> &p, const Point<2> &q, const Point<2> &x) {
-    return distance_to_side(x, p, q) <= rounding * p.distance(q);
+    return distance_to_segment(x, p, q) <= rounding * p.distance(q);
   };
   return on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
 }
@@ -134,7 +126,7 @@ PolygonSides::search(const Point<2> &x, const std::size_t node, const std::size_
       for (std::size_t i = first; i < last; ++i)
         {
           const Point<2> &a = start(i), &b = end(i);
-          found.distance = std::min(found.distance, distance_to_side(x, a, b));
+          found.distance = std::min(found.distance, distance_to_segment(x, a, b));
           if ((a[1] > x[1]) != (b[1] > x[1]) && (turn(a, b, x) > 0) == (b[1] > a[1]))
             found.inside = !found.inside;
         }

@@ -1,5 +1,6 @@
 #include <scree/base/log.h>
 #include <scree/geometry/rounded_polygon.h>
+#include <scree/geometry/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,6 @@ double
 cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
 {
   return a[0] * b[1] - a[1] * b[0];
-}
-
-double
-distance_to_segment(const Point<2> &x, const Point<2> &a, const Point<2> &b)
-{
-  const Tensor<1, 2> side   = b - a;
-  const double       square = side.norm_square();
-  const double       s      = square > 0. ? std::clamp((x - a) * side / square, 0., 1.) : 0.;
-  return x.distance(a + s * side);
 }
 
 /** Begins and ends of the arcs, each point once. */

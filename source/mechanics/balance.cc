@@ -1,4 +1,5 @@
 #include <scree/base/joint_sum.h>
+#include <scree/discretization/own_nodes.h>
 #include <scree/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -68,39 +69,27 @@ node_sums(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bod
           const Vector &u, const Vector &contact_forces, const Vector &body_forces)
 {
   std::vector<NodeSums<dim>> sums(bodies.size());
-  std::vector<bool>          is_known(space.owned().n_elements(), false);
-  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
-    {
-      const ActiveCell &cell = space.cells()[a];
-      NodeSums<dim>    &sum  = sums[cell.body];
-      for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
-        {
-          const DofIndex node = space.nodes(a)[i];
-          if (!space.owned().is_element(node) || space.hanging_constraints().is_constrained(node))
-            continue;
-          const auto place = space.owned().index_within_set(node);
-          if (is_known[place])
-            continue;
-          is_known[place]                       = true;
-          const dealii::Point<dim>     position = space.position(a, space.basis.node(i));
-          const dealii::Tensor<1, dim> x        = position - bodies[cell.body].box.center();
-          dealii::Tensor<1, dim>       displacement, contact_force, body_force;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              displacement[d]  = u(node + d);
-              contact_force[d] = contact_forces(node + d);
-              body_force[d]    = body_forces(node + d);
-            }
-          sum.n += 1.;
-          sum.x += x;
-          sum.u += displacement;
-          sum.x_x += dealii::outer_product(x, x);
-          sum.x_u += moment_of<dim>(dealii::Point<dim>(x), displacement);
-          sum.force += contact_force + body_force;
-          sum.moment += moment_of<dim>(position, contact_force + body_force);
-          sum.scale += contact_force.norm() + body_force.norm();
-        }
-    }
+  for_each_own_node(space, [&](const unsigned int a, const unsigned int i, const DofIndex node) {
+    const unsigned int           body     = space.cells()[a].body;
+    NodeSums<dim>               &sum      = sums[body];
+    const dealii::Point<dim>     position = space.position(a, space.basis.node(i));
+    const dealii::Tensor<1, dim> x        = position - bodies[body].box.center();
+    dealii::Tensor<1, dim>       displacement, contact_force, body_force;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        displacement[d]  = u(node + d);
+        contact_force[d] = contact_forces(node + d);
+        body_force[d]    = body_forces(node + d);
+      }
+    sum.n += 1.;
+    sum.x += x;
+    sum.u += displacement;
+    sum.x_x += dealii::outer_product(x, x);
+    sum.x_u += moment_of<dim>(dealii::Point<dim>(x), displacement);
+    sum.force += contact_force + body_force;
+    sum.moment += moment_of<dim>(position, contact_force + body_force);
+    sum.scale += contact_force.norm() + body_force.norm();
+  });
   return sums;
 }
 

@@ -1,4 +1,5 @@
 #include <scree/base/joint_sum.h>
+#include <scree/discretization/own_nodes.h>
 #include <scree/mechanics/equilibrium.h>
 
 // The stress of each body by its field and by the forces on it.
@@ -22,26 +23,16 @@ add_nodal_forces(const DisplacementSpace<dim>                &space,
                  const dealii::TrilinosWrappers::MPI::Vector &forces, const PointEvaluator<dim> &u,
                  const double motion, std::vector<BodyStress<dim>> &sums)
 {
-  std::vector<bool> is_known(space.owned().n_elements(), false);
-  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
-    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+  for_each_own_node(space, [&](const unsigned int a, const unsigned int i, const DofIndex node) {
+    dealii::Tensor<1, dim> force, displacement;
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        const DofIndex node = space.nodes(a)[i];
-        if (!space.owned().is_element(node) || space.hanging_constraints().is_constrained(node))
-          continue;
-        const auto place = space.owned().index_within_set(node);
-        if (is_known[place])
-          continue;
-        is_known[place] = true;
-        dealii::Tensor<1, dim> force, displacement;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            force[d]        = forces(node + d);
-            displacement[d] = u.nodal_values(a)[i * dim + d];
-          }
-        add_force(force, space.position(a, space.basis.node(i)) + motion * displacement,
-                  sums[space.cells()[a].body]);
+        force[d]        = forces(node + d);
+        displacement[d] = u.nodal_values(a)[i * dim + d];
       }
+    add_force(force, space.position(a, space.basis.node(i)) + motion * displacement,
+              sums[space.cells()[a].body]);
+  });
 }
 
 /** The tractions of a mean support at the points of its region: linear in the position. */

@@ -1,11 +1,11 @@
 #include <scree/discretization/cell_cut.h>
 #include <scree/output/body_output.h>
+#include <scree/output/patch_output.h>
 #include <scree/output/vtu_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/numerics/data_component_interpretation.h>
 
 #include <algorithm>
 
@@ -13,34 +13,6 @@ namespace scree
 {
 namespace
 {
-/** Patches made elsewhere, written by deal.II. */
-template <int dim>
-class Patches : public dealii::DataOutInterface<dim, dim>
-{
-public:
-  std::vector<dealii::DataOutBase::Patch<dim, dim>> patches;
-  std::vector<std::string>                          names;
-  std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
-    vectors;
-
-protected:
-  const std::vector<dealii::DataOutBase::Patch<dim, dim>> &get_patches() const override
-  {
-    return patches;
-  }
-  std::vector<std::string> get_dataset_names() const override
-  {
-    return names;
-  }
-  std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
-  get_nonscalar_data_ranges() const override
-  {
-    return vectors;
-  }
-};
-
 /** Clips a convex simplex {phi < 0} of linear phi; appends simplices. */
 template <int dim>
 void
@@ -311,12 +283,11 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
   const PointEvaluator<dim>      field(space, u), start = kinematics.start_displacement_field();
   const bool                     is_moved = kinematics.moves_bodies();
   const BodyFields<dim>          fields(parameters, velocities != nullptr, may_flow(bodies));
-  Patches<dim>                   output;
+  PatchOutput<dim, dim>          output;
   std::vector<VertexSample<dim>> samples;
   output.names = fields.names();
   for (const auto &[first, name] : fields.vectors())
-    output.vectors.emplace_back(first, first + dim - 1, name,
-                                dealii::DataComponentInterpretation::component_is_part_of_vector);
+    output.add_vector(first, name);
   const auto add = [&](const std::vector<dealii::Point<dim>> &vertices) {
     output.patches.push_back(make_patch<dim>(vertices, samples, fields));
     output.patches.back().patch_index = output.patches.size() - 1;

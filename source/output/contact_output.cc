@@ -1,7 +1,7 @@
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/output/column_names.h>
 #include <scree/output/contact_output.h>
-#include <scree/output/point_patches.h>
+#include <scree/output/patch_output.h>
 #include <scree/output/vtu_files.h>
 
 #include <deal.II/base/mpi.h>
@@ -219,10 +219,10 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
                   const MPI_Comm communicator, const std::string &directory,
                   const unsigned int number, const double time)
 {
-  PointPatches<dim> output;
-  output.names = contact_columns<dim>();
+  auto names = contact_columns<dim>();
   // Position comes with the vertex.
-  output.names.erase(output.names.begin() + 1, output.names.begin() + 1 + dim);
+  names.erase(names.begin() + 1, names.begin() + 1 + dim);
+  PointPatches<dim> output(names);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
       std::vector<double> values = columns(contact, i);

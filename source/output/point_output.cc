@@ -1,8 +1,8 @@
 #include <scree/mechanics/step_start.h>
 #include <scree/output/body_fields.h>
 #include <scree/output/column_names.h>
+#include <scree/output/patch_output.h>
 #include <scree/output/point_output.h>
-#include <scree/output/point_patches.h>
 #include <scree/output/vtu_files.h>
 
 #include <deal.II/base/utilities.h>
@@ -26,9 +26,10 @@ point_columns(const bool has_inertia, const bool has_plastic_strain)
     add_vector("velocity", Quantity::velocity);
   columns.emplace_back("volume", Quantity::volume);
   columns.emplace_back("volume_ratio", Quantity::number);
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      columns.emplace_back("stress_" + axes[i] + axes[j], Quantity::stress);
+  std::vector<std::string> stresses;
+  add_symmetric_names<dim>("stress", stresses);
+  for (const std::string &stress : stresses)
+    columns.emplace_back(stress, Quantity::stress);
   if (has_plastic_strain)
     columns.emplace_back("plastic_strain", Quantity::number);
   columns.emplace_back("body", Quantity::number);
@@ -50,9 +51,7 @@ point_values(const MaterialPoints<dim> &points, const std::size_t p, const bool 
     append(points.velocity[p]);
   values.push_back(points.volume(p));
   values.push_back(determinant(points.deformation_gradient[p]));
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      values.push_back(points.stress[p][i][j]);
+  add_symmetric(points.stress[p], values);
   if (has_plastic_strain)
     values.push_back(points.internal[p * points.n_internal() + StepStart<dim>::index_of_alpha]);
   values.push_back(points.body[p]);
@@ -67,11 +66,12 @@ write_points_vtu(const MaterialPoints<dim> &points, const std::vector<Body<dim>>
                  const MPI_Comm communicator, const std::string &directory,
                  const unsigned int number, const double time)
 {
-  PointPatches<dim> output;
-  const bool        has_plastic_strain = may_flow(bodies);
-  const auto        columns            = point_columns<dim>(has_inertia, has_plastic_strain);
+  const bool               has_plastic_strain = may_flow(bodies);
+  const auto               columns            = point_columns<dim>(has_inertia, has_plastic_strain);
+  std::vector<std::string> names;
   for (const auto &[name, quantity] : columns)
-    output.names.push_back(name);
+    names.push_back(name);
+  PointPatches<dim> output(names);
   for (std::size_t p = 0; p < points.size(); ++p)
     output.add(points.position[p], point_values(points, p, has_inertia, has_plastic_strain));
   dealii::DataOutBase::VtkFlags flags;

@@ -10,8 +10,6 @@ namespace scree
 {
 namespace
 {
-constexpr std::size_t largest_table = 64000000; // bytes
-
 /** CRC-32 in hexadecimal digits. */
 std::string
 checksum_of(const std::string &bytes)
@@ -24,7 +22,7 @@ checksum_of(const std::string &bytes)
 }
 } // namespace
 
-std::string
+CheckedTable
 checked_table(const ParameterSection &section, const std::string &key, const TableCall &call)
 {
   require(!call.file.empty(), key, "table() names no file", "write table(load.csv)");
@@ -32,12 +30,13 @@ checked_table(const ParameterSection &section, const std::string &key, const Tab
   require(path.find_first_of(",;()") == std::string::npos, key,
           "the file '" + path + "' cannot be named in a formula",
           "move it to where the path has none of the characters , ; ( )");
-  read_time_table(path);
-  const std::string found = checksum_of(read_bytes(path, largest_table, path, "", "a table"));
+  const std::string bytes = read_time_table_bytes(path);
+  const TimeTable   table(checked_text(bytes, path), path);
+  const std::string found = checksum_of(bytes);
   require(call.checksum.empty() || call.checksum == found, key,
           "the file '" + path + "' has changed, its checksum is " + found,
           "take the file of before, or write table(FILE) without a checksum");
-  return "table(" + path + ", " + found + ")";
+  return {"table(" + path + ", " + found + ")", table};
 }
 
 bool

@@ -292,8 +292,9 @@ ParameterSection::formula(const std::string &key, std::string &text,
       const auto calls = table_calls(text, key);
       for (auto call = calls.rbegin(); call != calls.rend(); ++call)
         {
-          text.replace(call->begin, call->length, checked_table(*this, key, *call));
-          tree->tables.push_back({node, key, read_time_table(found_file(key, call->file))});
+          auto checked = checked_table(*this, key, *call);
+          text.replace(call->begin, call->length, checked.call);
+          tree->tables.push_back({node, key, std::move(checked.table)});
         }
       if (!calls.empty())
         node->get_entry(key).value = text;

@@ -26,7 +26,10 @@ private:
   std::vector<std::pair<double, double>> rows; //!< time, value
 };
 
-/** The table of a file of a bounded size. @throws UserError if there is none */
+/** The bytes of the file of a table. @throws UserError if there is none, or it is too large */
+std::string read_time_table_bytes(const std::string &path);
+
+/** The table of a file. @throws UserError if there is none */
 TimeTable read_time_table(const std::string &path);
 
 /** table(FILE) or table(FILE, CHECKSUM) in a formula. */

@@ -8,13 +8,20 @@
 
 namespace scree
 {
+/** The table that a formula calls, and the call as "table(PATH, CHECKSUM)". */
+struct CheckedTable
+{
+  std::string call;
+  TimeTable   table;
+};
+
 /**
- * A table in the formula of entry `key`, as "table(PATH, CHECKSUM)" with the absolute path.
+ * A table in the formula of entry `key`, found as ParameterSection::found_file() does.
  *
  * @throws UserError if there is no such table, or it is another one than its checksum tells
  */
-std::string checked_table(const ParameterSection &section, const std::string &key,
-                          const TableCall &call);
+CheckedTable checked_table(const ParameterSection &section, const std::string &key,
+                           const TableCall &call);
 
 /**
  * Declares entry Checksum, by which a run that is resumed or repeated sees whether a file is still
