@@ -84,8 +84,13 @@ TEST(LongTablesMPI, CollectiveCallsDoNotGrowWithTheBodies)
 {
   const unsigned int n_of_nine = collectives_of_tables(3);
   EXPECT_EQ(n_of_nine, collectives_of_tables(6));
-  // 20 of one process, 33 of two: most compare the maps of vectors that are added.
+  // 20 of one process, 33 of two: most compare the maps of vectors that are added. deal.II's
+  // assertions add another 20 of two.
+#ifdef DEBUG
+  EXPECT_LE(n_of_nine, 60u);
+#else
   EXPECT_LE(n_of_nine, 40u);
+#endif
 }
 
 /** The number of collective calls of an iteration of Newton's method on free discs, one of which
