@@ -148,6 +148,7 @@ ContactClosing<dim>::settle()
   constexpr double       negligible = 1e-3;
   if (!model.is_moving() || model.problem().equilibrium().free_bodies().empty())
     return;
+  State<dim>   before  = model.state();
   unsigned int n_moves = 0;
   for (; n_moves < max_moves; ++n_moves)
     {
@@ -165,7 +166,9 @@ ContactClosing<dim>::settle()
       equilibrium.accept_as_transfer(u, history);
       go_on_from(u, std::move(points));
     }
-  if (n_moves > 0)
+  if (n_moves == max_moves)
+    model.go_back(std::move(before), step_control.step_size());
+  else if (n_moves > 0)
     run_log.log.line("  bodies that nothing holds fall until contact does, in "
                      + std::to_string(n_moves) + " move(s)");
 }

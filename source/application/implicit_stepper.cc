@@ -201,7 +201,7 @@ template <int dim>
 LinearSolveResult
 ImplicitStepper<dim>::solve_linear_system(const Vector &r, const double tolerance, Vector &du)
 {
-  return model.problem().solver().solve(r, tolerance, !is_transient && !is_second_attempt, du);
+  return model.problem().solver().solve(r, tolerance, !has_more_mass && !is_second_attempt, du);
 }
 
 template <int dim>
@@ -235,34 +235,27 @@ ImplicitStepper<dim>::hooks()
     return std::max(equilibrium.force_scale(),
                     equilibrium.round_off() / parameters.newton.relative_tolerance);
   };
-  hooks.goes_far = [&](const Vector &du) {
-    constexpr double cells = 1.001; // not what was shortened
-    return !equilibrium.free_bodies().empty()
-           && du.linfty_norm() > cells * problem.grid.finest_size();
-  };
-  hooks.set_secant_part = [&](const double part) { problem.contact().set_secant_part(part); };
-  hooks.freeze          = [&](const bool freeze) {
-    if (freeze)
-      problem.contact().laws().freeze(problem.contact().points(), problem.contact().responses());
-    else
-      problem.contact().laws().unfreeze();
-  };
   hooks.observe = [&](const NewtonIteration &iteration) { observe(iteration); };
-  set_hooks_of_mass(hooks);
+  set_hooks_of_lagging(hooks);
   return hooks;
 }
 
 template <int dim>
 void
-ImplicitStepper<dim>::set_hooks_of_mass(Newton::Hooks &hooks)
+ImplicitStepper<dim>::set_hooks_of_lagging(Newton::Hooks &hooks)
 {
   Equilibrium<dim> &equilibrium = model.problem().equilibrium();
   const bool        has_mass    = !equilibrium.free_bodies().empty();
   if (model.is_moving() && has_mass)
     hooks.advance = [&](const Vector &du, Vector &u) { equilibrium.advance(du, u); };
-  hooks.set_mass = [&, has_mass](const double factor) {
-    is_transient = has_mass && factor > Equilibrium<dim>::default_mass_factor;
-    equilibrium.set_artificial_mass(factor);
+  hooks.lag = [&, has_mass](const std::optional<double> mass) {
+    ContactPoints<dim> &contact = model.problem().contact();
+    if (mass)
+      contact.laws().freeze(contact.points(), contact.responses());
+    else
+      contact.laws().unfreeze();
+    has_more_mass = has_mass && mass;
+    equilibrium.set_artificial_mass(mass.value_or(Equilibrium<dim>::default_mass_factor));
   };
   hooks.mass_work = [&](const Vector &du) { return equilibrium.artificial_work(du); };
 }

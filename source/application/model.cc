@@ -330,6 +330,15 @@ Model<dim>::begin_again(const double step_size)
 }
 
 template <int dim>
+void
+Model<dim>::go_back(State<dim> &&to, const double step_size)
+{
+  current = std::move(to);
+  discretise(step_size);
+  start_step();
+}
+
+template <int dim>
 GatheredState<dim>
 Model<dim>::gathered() const
 {

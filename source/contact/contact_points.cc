@@ -100,7 +100,6 @@ template <int dim>
 void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
-  secant_part       = 0.;
   evaluated         = discretisation.jump_operator.evaluate(u);
   contact_responses = responses_to(all_points, evaluated.jumps, history);
   std::vector<dealii::Tensor<1, dim>> forces;
@@ -117,10 +116,7 @@ ContactPoints<dim>::stiffness(const unsigned int point) const
   const ContactResponse<dim> &response = contact_responses[point];
   if (response.status == ContactStatus::open)
     return {};
-  return points()[point].weight
-         * (secant_part == 0.
-              ? response.tangent
-              : (1. - secant_part) * response.tangent + secant_part * response.secant);
+  return points()[point].weight * response.tangent;
 }
 
 template <int dim>

@@ -63,8 +63,6 @@ add_friction(const FrictionBound &bound, const ContactMotion<dim> &motion,
     = trial.tangential_stiffness * (f * projection + df_by_dg * outer_product(motion.slide, n));
   const double length  = trial.tau.norm();
   response.closed_part = f;
-  response.secant += std::min(1., length == 0. ? 1. : bound.value / length)
-                     * trial.tangential_stiffness * f * projection;
   if (length <= bound.value)
     {
       response.status       = ContactStatus::stick;
@@ -101,7 +99,6 @@ respond(const FrictionBound *bound, const ContactMotion<dim> &motion,
   response.status = bound ? ContactStatus::stick : ContactStatus::slip;
   if (bound && touches)
     response.tangent += trial.tangential_stiffness * tangential_projection(n);
-  response.secant = response.tangent;
   if (bound && !touches)
     add_friction(*bound, motion, trial, response);
 }

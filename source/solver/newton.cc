@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace scree
 {
@@ -22,27 +23,21 @@ constexpr double       round_off_increment  = 1e-10;
 constexpr double       forcing_factor       = 0.9;
 constexpr double       forcing_safeguard    = 0.1;
 constexpr double       final_linear_factor  = 0.1;
-constexpr unsigned int transient_iterations = 12;
-constexpr double       transient_reduction  = 1e-3;
-constexpr unsigned int stall_iterations     = 8;
-constexpr double       stall_reduction      = 0.7;
-constexpr double       first_mass           = 0.1;
-constexpr double       smallest_mass        = 1e-6;
-constexpr double       first_later_mass     = 1e-4;
-constexpr double       smallest_later_mass  = 1e-9;
+constexpr double       short_step           = 0.5;
+constexpr double       full_step            = 0.99;
+constexpr double       good_lagged_step     = 0.5;
+constexpr double       poor_step            = 4;
+constexpr double       first_mass           = 1e-4;
+constexpr double       smallest_mass        = 1e-9;
+constexpr double       largest_mass         = 0.1;
 constexpr double       mass_decay           = 0.1;
 constexpr double       mass_growth          = 4;
-constexpr double       short_step           = 0.01;
-constexpr unsigned int max_short_steps      = 3;
-constexpr double       largest_mass         = 10;
-constexpr double       first_secant_part    = 0.25;
-constexpr double       least_secant_part    = 1e-2;
-constexpr double       secant_growth        = 4;
-constexpr double       secant_decay         = 0.5;
 constexpr double       energy_overshoot     = 0.5;
 constexpr double       energy_reduction     = 0.1;
 constexpr unsigned int max_energy_trials    = 16;
 constexpr unsigned int max_balances         = 6;
+constexpr unsigned int max_rising_balances  = 3;
+constexpr double       balance_reduction    = 0.1;
 
 const EnumNames<LineSearch> line_search_names
   = {{LineSearch::none, "none"}, {LineSearch::residual, "residual"}, {LineSearch::work, "work"}};
@@ -88,17 +83,6 @@ is_round_off(const NewtonIteration &iteration, const double norm_of_u)
   return iteration.residual <= round_off_factor * iteration.tolerance
          && iteration.increment <= iteration.step_length * round_off_increment * norm_of_u;
 }
-
-/** Whether the residual ceased to fall, see the class documentation. */
-bool
-is_stalled(const std::vector<double> &residuals)
-{
-  if (residuals.size() <= stall_iterations + 1)
-    return false;
-  const auto middle = residuals.end() - stall_iterations;
-  return *std::min_element(middle, residuals.end())
-         > stall_reduction * *std::min_element(residuals.begin(), middle);
-}
 } // namespace
 
 void
@@ -109,8 +93,7 @@ NewtonParameters::declare(const ParameterSection &section)
   section.entry("Absolute tolerance", absolute_tolerance, dealii::Patterns::Double(0.),
                 "Added to the relative tolerance times the forces [force].");
   section.entry("Maximum iterations", max_iterations, dealii::Patterns::Integer(1),
-                "A load step that needs more is cut. Where Newton's method stalls, a second method "
-                "with an artificial mass goes on; its iterations count too.");
+                "A load step that needs more is cut.");
   section.entry(
     "Loosest linear tolerance", loosest_linear_tolerance, dealii::Patterns::Double(0., 0.1),
     "Iterative linear solvers are asked for this at first and for more as the iteration "
@@ -130,49 +113,34 @@ struct Newton::Step
   Vector       r;
 };
 
-/** What the method of the iteration is. */
+/** What the next step is. */
 struct Newton::Progress
 {
-  bool         is_transient = false; //!< the first part of a round
-  bool         is_later     = false; //!< in a round
-  LineSearch   line_search;
-  double       mass          = 0.; //!< s
-  double       secant_part   = 0.; //!< of friction
-  unsigned int iterations    = 0;  //!< before this method
-  unsigned int n_short_steps = 0;  //!< in a row
+  bool         is_lagged = false;      //!< friction in the next step
+  double       mass      = first_mass; //!< s of a lagged step
+  unsigned int n_full    = 0;          //!< lagged steps of alpha = 1 in a row
+  unsigned int n_wanted  = 1;          //!< of these before a step with the tangent
+  unsigned int n_rising  = 0;          //!< balances that raised the residual
+  /** The largest residual with which a balance is tried. */
+  double balance_below = std::numeric_limits<double>::infinity();
 
-  /** Makes s smaller after a long step, larger after a short one. */
-  void adapt(const double alpha)
+  /** @param ratio of the residuals after and before the step */
+  void end_step(const double alpha, const double ratio, const bool has_mass)
   {
+    if (!is_lagged)
+      {
+        is_lagged = alpha < short_step || (ratio > 1. && has_mass);
+        n_full    = 0;
+        return;
+      }
+    n_full    = alpha > full_step ? n_full + 1 : 0;
+    is_lagged = n_full == 0 || (n_full < n_wanted && ratio > good_lagged_step);
+    if (!is_lagged && ratio > good_lagged_step)
+      n_wanted *= 2;
     if (alpha > 0.5)
-      mass = std::max(is_transient ? smallest_mass : smallest_later_mass, mass_decay * mass);
+      mass = std::max(smallest_mass, mass_decay * mass);
     else if (alpha < 0.2)
       mass = std::min(largest_mass, mass_growth * mass);
-  }
-
-  /** Starts the method anew. */
-  void begin()
-  {
-    n_short_steps = 0;
-    secant_part   = 0.;
-  }
-
-  /**
-   * Counts short steps and chooses the part of the secant of friction.
-   * @param ratio  of the residuals after and before the step
-   * @param is_far whether a body would go far in the whole step
-   */
-  void end_step(const double alpha, const double ratio, const bool is_far)
-  {
-    n_short_steps = alpha < short_step ? n_short_steps + 1 : 0;
-    if (is_transient)
-      return;
-    if (alpha < 0.5 && (is_far || secant_part > 0.))
-      secant_part = std::clamp(secant_growth * secant_part, first_secant_part, 1.);
-    else
-      secant_part *= std::min(secant_decay, ratio);
-    if (secant_part < least_secant_part)
-      secant_part = 0.;
   }
 };
 
@@ -196,6 +164,31 @@ Newton::balance(Vector &u, Vector &r) const
   for (; k < max_balances && hooks.balance && hooks.balance(u); ++k)
     hooks.residual(u, r);
   return k > 0;
+}
+
+void
+Newton::balance_after(Step &step, const double norm_before, Progress &progress) const
+{
+  if (step.norm > progress.balance_below)
+    return;
+  Step balanced = step;
+  if (!balance(balanced.u, balanced.r))
+    return;
+  balanced.norm        = balanced.r.l2_norm();
+  const bool is_rising = can_lag() && balanced.norm > step.norm;
+  if (!is_rising || (progress.n_rising++ < max_rising_balances && balanced.norm <= norm_before))
+    {
+      step = std::move(balanced);
+      return;
+    }
+  progress.balance_below = balance_reduction * step.norm;
+  hooks.residual(step.u, step.r);
+}
+
+bool
+Newton::can_lag() const
+{
+  return hooks.lag && parameters.line_search != LineSearch::none;
 }
 
 void
@@ -281,7 +274,7 @@ Newton::search(const Vector &u, const Vector &du, const Vector &r, const double 
 }
 
 Newton::Step
-Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const
+Newton::search_energy(const Vector &u, const Vector &du, const Vector &r) const
 {
   Step step;
   step.r.reinit(r, true);
@@ -298,60 +291,59 @@ Newton::search_energy(const Vector &u, const Vector &du, const Vector &r, Progre
         return G();
       },
       start, step.alpha, after, energy_reduction * start, max_energy_trials);
-  progress.adapt(step.alpha);
   return step;
 }
 
-NewtonResult
-Newton::solve(Vector &u) const
+Newton::Step
+Newton::lagged_step(const double mass, const double linear_tolerance, const Vector &u, Vector &r,
+                    Vector &du) const
 {
-  Vector   last(u);
-  Progress progress;
-  progress.line_search = parameters.line_search;
-  NewtonResult result  = iterate(u, progress);
-  if (!hooks.set_mass)
-    return result;
-  // Whether the residual fell.
-  const auto go_on = [&](Vector &from) {
-    progress.iterations        = result.iterations;
-    NewtonResult        next   = iterate(from, progress);
-    const bool          fell   = next.residuals.back() < next.residuals.front();
-    std::vector<double> before = std::move(result.residuals);
-    before.insert(before.end(), next.residuals.begin(), next.residuals.end());
-    next.residuals = std::move(before);
-    result         = std::move(next);
-    return fell;
-  };
-  double transient_mass = first_mass;
-  while (!result.converged() && result.iterations < parameters.max_iterations)
+  hooks.lag(mass);
+  hooks.residual(u, r); // the same r, another tangent
+  try
     {
-      progress.is_transient = true;
-      progress.is_later     = true;
-      progress.mass         = transient_mass;
-      hooks.residual(last, u);
-      hooks.freeze(true);
-      go_on(last);
-      hooks.freeze(false);
-      if (!std::isfinite(result.residuals.back()))
-        break;
-      transient_mass        = std::max(progress.mass, first_later_mass);
-      progress.mass         = first_later_mass;
-      progress.is_transient = false;
-      // What one line search cycles in, the other one may leave.
-      if (parameters.line_search != LineSearch::none)
-        progress.line_search
-          = progress.line_search == LineSearch::work ? LineSearch::residual : LineSearch::work;
-      u = last;
-      if (go_on(u))
-        last = u;
+      hooks.solve(u, r, linear_tolerance, du);
     }
-  hooks.set_mass(smallest_mass);
-  return result;
+  catch (const LinearSolverFailure &)
+    {
+      hooks.lag({});
+      throw;
+    }
+  Step step = search_energy(u, du, r);
+  hooks.lag({});
+  hooks.residual(step.u, step.r);
+  step.norm = step.r.l2_norm();
+  return step;
+}
+
+Newton::Step
+Newton::take_step(const double linear_tolerance, const double norm, const Vector &u, Vector &r,
+                  Vector &du, Progress &progress) const
+{
+  const auto is_poor = [&](const Step &step) {
+    return can_lag() && step.norm > poor_step * norm && hooks.mass_work(du) > 0.;
+  };
+  Step step;
+  if (!progress.is_lagged)
+    {
+      hooks.solve(u, r, linear_tolerance, du);
+      step = search(u, du, r, norm, parameters.line_search);
+      if (!is_poor(step))
+        return step;
+      progress.is_lagged = true;
+    }
+  step = lagged_step(progress.mass, linear_tolerance, u, r, du);
+  while (is_poor(step) && progress.mass < largest_mass)
+    {
+      progress.mass = std::min(largest_mass, 10. * std::max(first_mass, progress.mass));
+      step          = lagged_step(progress.mass, linear_tolerance, u, r, du);
+    }
+  return step;
 }
 
 std::optional<Newton::End>
 Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
-               const Progress &progress, const Vector &u, const Vector &r) const
+               const Vector &u, const Vector &r) const
 {
   const double residual = iteration.residual;
   if (std::isfinite(residual) && residual <= iteration.tolerance)
@@ -366,13 +358,6 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
     return End{
       NewtonStatus::converged_at_round_off,
       "ended at the accuracy of the geometry in %u iterations, |r| = %.3e (tolerance %.3e)"};
-  if (progress.is_transient
-      && (residuals.size() > transient_iterations
-          || residual <= transient_reduction * residuals.front()))
-    return End{NewtonStatus::stalled, "frozen friction: iteration %u, |r| = %.3e (tolerance %.3e)"};
-  if (hooks.set_mass && !progress.is_transient
-      && (is_stalled(residuals) || progress.n_short_steps >= max_short_steps))
-    return End{NewtonStatus::stalled, "stalled in iteration %u, |r| = %.3e (tolerance %.3e)"};
   if (iteration.number >= parameters.max_iterations)
     return End{NewtonStatus::max_iterations,
                "not converged in %u iterations, |r| = %.3e (tolerance %.3e)"};
@@ -380,14 +365,13 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
 }
 
 NewtonResult
-Newton::iterate(Vector &u, Progress &progress) const
+Newton::solve(Vector &u) const
 {
   NewtonResult    result;
   NewtonIteration iteration;
-  iteration.number = progress.iterations;
-  Vector r(u), du(u);
-  double linear_tolerance = parameters.loosest_linear_tolerance;
-  progress.begin();
+  Progress        progress;
+  Vector          r(u), du(u);
+  double          linear_tolerance = parameters.loosest_linear_tolerance;
   hooks.residual(u, r);
   balance(u, r);
   iteration.residual = r.l2_norm();
@@ -402,7 +386,7 @@ Newton::iterate(Vector &u, Progress &progress) const
       if (hooks.observe)
         hooks.observe(iteration);
 
-      if (const auto end = end_of(iteration, result.residuals, progress, u, r))
+      if (const auto end = end_of(iteration, result.residuals, u, r))
         {
           result.status = end->status;
           result.message
@@ -412,13 +396,10 @@ Newton::iterate(Vector &u, Progress &progress) const
 
       linear_tolerance = forcing_term(result.residuals, linear_tolerance, iteration.tolerance,
                                       parameters.loosest_linear_tolerance);
+      Step step;
       try
         {
-          if (progress.is_later)
-            hooks.set_mass(progress.mass);
-          if (hooks.set_secant_part)
-            hooks.set_secant_part(progress.secant_part);
-          hooks.solve(u, r, linear_tolerance, du);
+          step = take_step(linear_tolerance, iteration.residual, u, r, du, progress);
         }
       catch (const LinearSolverFailure &failure)
         {
@@ -427,17 +408,12 @@ Newton::iterate(Vector &u, Progress &progress) const
           result.message = failure.what();
           return result;
         }
-
-      const Step step = progress.is_transient
-                          ? search_energy(u, du, r, progress)
-                          : search(u, du, r, iteration.residual, progress.line_search);
-      if (progress.is_later && !progress.is_transient)
-        progress.adapt(step.alpha);
-      u                  = step.u;
-      r                  = step.r;
-      iteration.residual = balance(u, r) ? r.l2_norm() : step.norm;
-      progress.end_step(step.alpha, iteration.residual / result.residuals.back(),
-                        hooks.goes_far && hooks.goes_far(du));
+      if (can_lag())
+        progress.end_step(step.alpha, step.norm / iteration.residual, hooks.mass_work(du) > 0.);
+      balance_after(step, iteration.residual, progress);
+      u                           = step.u;
+      r                           = step.r;
+      iteration.residual          = step.norm;
       iteration.step_length       = step.alpha;
       iteration.increment         = step.alpha * du.l2_norm();
       iteration.extra_evaluations = step.evaluations - 1;

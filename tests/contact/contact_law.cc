@@ -231,26 +231,6 @@ TEST(ContactLaw, ReturnMappingKeepsTheLimit3D)
   check_limits<3>();
 }
 
-TEST(ContactLaw, TheSecantIsASpringThatCarriesTheFriction)
-{
-  Random<3>    random;
-  unsigned int n_slip = 0;
-  for (unsigned int i = 0; i < 200; ++i)
-    {
-      auto k              = random.kinematics();
-      k.old_tau           = 0.;
-      const auto response = contact_response<3>("coulomb", 0.5, k);
-      EXPECT_LE((response.secant - transpose(response.secant)).norm(), 1e-14 * k.eps_n);
-      if (response.status == ContactStatus::open || response.pressure == 0.)
-        continue;
-      n_slip += response.status == ContactStatus::slip;
-      const Tensor<2, 3> tangential = response.secant - k.eps_n * outer_product(k.normal, k.normal);
-      EXPECT_LE((tangential * k.normal).norm(), 1e-12 * k.eps_t);
-      EXPECT_LE((response.tau + tangential * (k.jump - k.old_jump)).norm(), 1e-12 * k.eps_t);
-    }
-  EXPECT_GT(n_slip, 20u);
-}
-
 TEST(ContactLaw, OpeningForgetsTheTraction)
 {
   Random<3> random;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace scree
 {
@@ -148,32 +149,79 @@ TEST(Newton, LineSearchEndsACycle)
     }
 }
 
-TEST(Newton, ShortStepsBringTheSecantOfFriction)
+/** A force 0.3 pushes what the tangent hardly resists, towards a spring that begins at u = 1;
+ * lagged steps have a mass of 1. The factors of the mass are written to `masses`, those of ends as
+ * 0. */
+Newton::Hooks
+loose_body(std::vector<double> &masses)
 {
-  // A force 0.3 pushes what the tangent does not resist, towards a spring that begins at u = 1.
-  constexpr double    force = 0.3, weak = 1e-6;
-  std::vector<double> parts, lengths;
-  Newton::Hooks       hooks;
-  const auto          pressed = [](const Vector &u) { return std::max(0., u(0) - 1.); };
-  hooks.residual              = [&](const Vector &u, Vector &r) { r(0) = force - pressed(u); };
-  hooks.solve                 = [&](const Vector &u, const Vector &r, double, Vector &du) {
-    const double tangent = pressed(u) > 0. ? 1. : weak;
-    du(0)                = r(0) / ((1. - parts.back()) * tangent + parts.back());
+  Newton::Hooks hooks;
+  const auto    pressed = [](const Vector &u) { return std::max(0., u(0) - 1.); };
+  hooks.residual        = [=](const Vector &u, Vector &r) { r(0) = 0.3 - pressed(u); };
+  hooks.solve           = [=, &masses](const Vector &u, const Vector &r, double, Vector &du) {
+    du(0) = r(0) / ((pressed(u) > 0. ? 1. : 1e-6) + (masses.empty() ? 0. : masses.back()));
   };
-  hooks.reference       = []() { return 1.; };
-  hooks.goes_far        = [](const Vector &du) { return du.linfty_norm() > 10.; };
-  hooks.set_secant_part = [&](const double part) { parts.push_back(part); };
-  hooks.observe         = [&](const NewtonIteration &step) { lengths.push_back(step.step_length); };
-  Vector             u  = vector({0.});
-  const NewtonResult result = Newton(with(LineSearch::residual), hooks).solve(u);
+  hooks.reference = []() { return 1.; };
+  hooks.lag       = [&](const std::optional<double> s) { masses.push_back(s.value_or(0.)); };
+  hooks.mass_work = [&](const Vector &du) {
+    double last = 0.;
+    for (const double mass : masses)
+      last = mass > 0. ? mass : last;
+    return (last > 0. ? last : 1e-6) * du.norm_sqr();
+  };
+  return hooks;
+}
+
+TEST(Newton, LagsFrictionAfterShortSteps)
+{
+  std::vector<double>          masses;
+  std::vector<NewtonIteration> log;
+  Newton::Hooks                hooks = loose_body(masses);
+  hooks.observe             = [&](const NewtonIteration &iteration) { log.push_back(iteration); };
+  Vector             u      = vector({0.});
+  const NewtonResult result = Newton(with(LineSearch::work), hooks).solve(u);
   ASSERT_TRUE(result.converged()) << result.message;
-  EXPECT_NEAR(u(0), 1. + force, 1e-8);
-  EXPECT_LE(result.iterations, 8u);
-  EXPECT_EQ(parts[0], 0.);
-  EXPECT_EQ(parts[1], 0.25);
-  for (std::size_t i = 1; i < parts.size(); ++i)
-    if (lengths[i] >= 0.5)
-      EXPECT_LE(parts[i], 0.5 * parts[i - 1]);
+  EXPECT_NEAR(u(0), 1.3, 1e-8);
+  EXPECT_LE(result.iterations, 6u);
+  ASSERT_LT(log[1].step_length, 0.5);
+  // Each lagged step begins with a mass and ends.
+  ASSERT_EQ(masses.size() % 2, 0u);
+  ASSERT_GE(masses.size(), 2u);
+  EXPECT_EQ(masses[0], 1e-4);
+  for (std::size_t i = 0; i < masses.size(); i += 2)
+    {
+      EXPECT_GT(masses[i], 0.);
+      EXPECT_EQ(masses[i + 1], 0.);
+    }
+}
+
+TEST(Newton, FullStepsAreNeverLagged)
+{
+  std::vector<double> masses;
+  Vector              u = vector({0.});
+  EXPECT_TRUE(Newton(with(LineSearch::none), loose_body(masses)).solve(u).converged());
+  EXPECT_TRUE(masses.empty());
+}
+
+TEST(Newton, BalancesOnlyWhereTheResidualAllows)
+{
+  // A balance that sends u back to -1 for ever: refused from the fourth time on.
+  Newton::Hooks hooks     = two_equations();
+  unsigned int  n_balance = 0;
+  hooks.lag               = [](std::optional<double>) {};
+  hooks.mass_work         = [](const Vector &) { return 0.; };
+  hooks.balance           = [&](Vector &u) {
+    if (u(0) == 1.3)
+      return false;
+    ++n_balance;
+    u = vector({1.3, 2.2});
+    return true;
+  };
+  Vector             u      = vector({1.3, 2.2});
+  const NewtonResult result = Newton(NewtonParameters(), hooks).solve(u);
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_NEAR(u(0), 1, 1e-8);
+  EXPECT_GT(n_balance, 3u);
 }
 
 TEST(Newton, StepsToUndefinedResidualsAreHalved)
@@ -273,11 +321,10 @@ TEST(Newton, FailuresAreTold)
   EXPECT_EQ(result.status, NewtonStatus::diverged);
   EXPECT_EQ(result.iterations, 0u);
 
-  // With an artificial mass no round goes on from what is not finite.
+  // No lagged step goes on from what is not finite.
   hooks           = scalar([&](double u) { return u == 0. ? 1. : nan(u); }, one);
-  hooks.set_mass  = [](double) {};
+  hooks.lag       = [](std::optional<double>) {};
   hooks.mass_work = [](const Vector &) { return 1.; };
-  hooks.freeze    = [](bool) {};
   u               = vector({0.});
   EXPECT_EQ(Newton(NewtonParameters(), hooks).solve(u).status, NewtonStatus::diverged);
 

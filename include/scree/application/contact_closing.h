@@ -31,7 +31,8 @@ public:
 
   /**
    * On a moving geometry free bodies fall as rigid ones, driven by the loads of the next step, half
-   * a cell at a time, until contact holds them; the energy is that of transfer.
+   * a cell at a time, until contact holds them; the energy is that of transfer. Where it does not
+   * hold them in 200 moves they stay where they were.
    */
   void settle();
 

@@ -55,7 +55,7 @@ private:
   NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
                                         const NewtonResult &result);
   Newton::Hooks     hooks();
-  void              set_hooks_of_mass(Newton::Hooks &hooks);
+  void              set_hooks_of_lagging(Newton::Hooks &hooks);
   void              observe(const NewtonIteration &iteration);
   LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
 
@@ -68,7 +68,7 @@ private:
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt
   bool                   has_slid = false; //!< bodies may have: contact was closed with friction
-  bool                   is_transient = false; //!< K has more artificial mass
+  bool                   has_more_mass = false; //!< K, in a lagged step
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
   StatusChanges status_changes;
 };

@@ -81,6 +81,12 @@ public:
   /** On a moving geometry: begins a step of another size, for contact points expect its slip. */
   void begin_again(const double step_size);
 
+  /**
+   * On a moving geometry: goes back to a state that state() was since the last step, and begins a
+   * step there (collective).
+   */
+  void go_back(State<dim> &&to, const double step_size);
+
   /** What a checkpoint needs of the state, on process 0; collective. */
   GatheredState<dim> gathered() const;
 

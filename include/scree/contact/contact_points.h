@@ -77,15 +77,6 @@ public:
   /** Largest overlap of each pair without displacement; tied ones have none. Collective. */
   std::vector<double> overlaps(const MPI_Comm communicator) const;
 
-  /**
-   * Puts a part of the secant, 0 to 1, for one of the tangent until the next evaluation: the secant
-   * holds what slips, and does not couple it to pressure.
-   */
-  void set_secant_part(const double part)
-  {
-    secant_part = part;
-  }
-
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
   void evaluate(const Vector &u, const ContactHistory<dim> &history);
 
@@ -161,7 +152,6 @@ private:
   ContactJumps<dim>                   evaluated;
   std::vector<ContactResponse<dim>>   contact_responses;
   ContactForces<dim>                  contact_forces;
-  double                              secant_part = 0.;
   std::vector<dealii::Tensor<2, dim>> glued_stiffness; //!< D_0
 };
 } // namespace scree

@@ -74,7 +74,6 @@ struct ContactResponse
   double                 pressure = 0.; //!< p, positive in compression
   dealii::Tensor<1, dim> tau;           //!< tangential traction on b
   dealii::Tensor<2, dim> tangent;       //!< -d(p n + tau)/d[[u]] [force/area/L]
-  dealii::Tensor<2, dim> secant;        //!< instead, symmetric [force/area/L]
   ContactStatus          status       = ContactStatus::open;
   double                 slip         = 0.;   //!< sliding in this step [L]
   bool                   is_symmetric = true; //!< the tangent
@@ -95,10 +94,6 @@ struct ContactResponse
  *
  *     stick: k_n n n^T + k_t T,    T = f P + df/dg slide n^T
  *     slip:  k_n n n^T + db/dp k_n s n^T + (b / |tau_t|) k_t (P - s s^T) T
- *
- * and the secant is what a spring would have that carries tau now, whatever p,
- *
- *     k_n n n^T + min(1, b / |tau_t|) k_t f P.
  *
  * Touching points, whose p_t is as of gaps in [0, touching_gap], carry no traction but the tangent
  * of stick: a body that touches without load is held in the first iteration.

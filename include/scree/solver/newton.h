@@ -72,7 +72,6 @@ enum class NewtonStatus
   converged,
   converged_at_round_off,
   max_iterations,
-  stalled, //!< the residual did not fall for many iterations
   diverged,
   linear_solver_failure
 };
@@ -119,37 +118,30 @@ struct NewtonResult
  * falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most (Matthies, Strang, Int. J. Numer.
  * Meth. Engng 14, 1979, 1613-1626). In all cases a step to a residual that is not finite is halved.
  *
- * *Secants of friction:* the tangent of what slides does not resist it and sends single bodies far
+ * *Lagged friction:* the tangent of what slides does not resist it and sends single bodies far
  * beyond where they find hold, and a search shortens the step of all. After a step of alpha < 1/2
- * in which a body would have gone far that tangent becomes (1 - s) tangent + s secant, s = 1/4,
- * four times as much, at most 1, after each further step of alpha < 1/2. A longer one takes s times
- * the ratio of the residuals, at most 1/2; below 1/100 it is 0.
+ * or to a larger |r| the bounds of friction stay in the next one at what they are at u (a step to
+ * 4 |r| is taken again so, with a larger s). What is linear otherwise then has a convex energy, of
+ * which the step is a proximal one (Kelley, Keyes, SIAM J. Numer. Anal. 35, 1998, 508-523), with an
+ * artificial mass M that holds what moves freely:
+ *
+ *     (K(u) + s M) du = r(u),    G(alpha) = r(u + alpha du) . du - alpha s du . M du,
+ *
+ * where alpha = 1 if |G(1)| <= G(0)/2 or G(1) > 0, else |G(alpha)| <= G(0)/10: near the minimum
+ * along du of the energy plus s |u' - u|_M^2/2. s is 1e-4 at first, a tenth, at least 1e-9, after a
+ * step of alpha > 1/2 and four times as large, at most 0.1, after one of alpha < 0.2. A lagged step
+ * of alpha = 1 ends it if |r| falls to half or n such steps followed each other, n = 1 at first and
+ * twice as many after each time. M never enters r: what converged is in balance without it. (The
+ * lagging is that of incremental potentials: Li et al., ACM Trans. Graph. 39, 2020, 49.)
  *
  * *Linear tolerances:* `eta = 0.9 (|r| / |r_before|)^2`, in the first iteration the loosest one
  * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the
  * loosest and never below what ends the iteration, 0.1 tolerance / |r|.
  *
- * *Pseudo-transient continuation:* with an artificial mass M the iteration ends as stalled when the
- * smallest residual of its last 8 iterations is not below 0.7 of the smallest before them, or when
- * 3 steps in a row were shorter than 0.01. After that, or any other failure, rounds of two parts go
- * on from the first guess. The first part has the bounds of friction frozen, so that what is linear
- * otherwise has a convex energy, and takes proximal steps (Kelley, Keyes, SIAM J. Numer. Anal. 35,
- * 1998, 508-523), 12 at most, until |r| falls to 1e-3:
- *
- *     (K(u) + s M) du = r(u),    G(alpha) = r(u + alpha du) . du - alpha s du . M du,
- *
- * where alpha = 1 if |G(1)| <= G(0)/2 or G(1) > 0, else |G(alpha)| <= G(0)/10: near the minimum
- * along du of the energy plus s |u' - u|_M^2/2. s is 0.1 at first, a tenth, at least 1e-6, after a
- * step of alpha > 1/2 and four times as large after one of alpha < 0.2. The second part is the
- * iteration above from where the first one ended, with friction set free and with s from 1e-4 to
- * 1e-9 by the same rule, so that what drifts under a small force finds what stops it. It searches
- * along du by `residual` and `work` in turn, in the first round by the one that was not chosen:
- * what one of them cycles in the other may leave (`none` stays). If it fails too, the next round
- * goes on from the end of the part after which |r| was smaller, unless that is not finite. M holds
- * what moves freely and never enters r: what converged is in balance without it.
- *
  * *Balance:* before the first and after every iteration a hook may move u to where forces on what
- * moves freely balance, 6 times at most: no tangent knows of contact that is lost.
+ * moves freely balance, 6 times at most: no tangent knows of contact that is lost. Where friction
+ * can be lagged, u stays if that raises |r|, but for three times in which |r| stays below what it
+ * was before the iteration; the next balance is then tried at a tenth of |r|.
  *
  * *Failure:* too many iterations, a residual that is not finite or 1e8 times the larger of the
  * reference and the residual at the start, or a LinearSolverFailure. Then u is the last iterate and
@@ -194,19 +186,13 @@ public:
     /** Told of each iteration; may be empty. */
     std::function<void(const NewtonIteration &)> observe;
 
-    /** Sets the factor of the artificial mass M in K; empty: there is none. */
-    std::function<void(double factor)> set_mass;
+    /**
+     * Freezes the bounds of friction at those of the last residual() and puts s M with this s in K;
+     * empty: both are again as they were. May be empty: friction is never lagged.
+     */
+    std::function<void(std::optional<double> s)> lag;
 
-    /** Whether du sends what moves freely far; may be empty. */
-    std::function<bool(const Vector &du)> goes_far;
-
-    /** Puts a part of a secant of friction for one of its tangent in the next K; may be empty. */
-    std::function<void(double part)> set_secant_part;
-
-    /** Freezes the bounds of friction at those of the last residual(), or lets them go. */
-    std::function<void(bool freeze)> freeze;
-
-    /** du . M du with the present factor. */
+    /** s du . M du with the s of the last lagged step; needed with `lag`. */
     std::function<double(const Vector &du)> mass_work;
   };
 
@@ -224,13 +210,21 @@ private:
   struct Progress;
   struct End;
 
-  NewtonResult iterate(Vector &u, Progress &progress) const;
-
   /** How the iteration ends here, if it does. */
   std::optional<End> end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
-                            const Progress &progress, const Vector &u, const Vector &r) const;
+                            const Vector &u, const Vector &r) const;
 
-  Step search_energy(const Vector &u, const Vector &du, const Vector &r, Progress &progress) const;
+  bool can_lag() const;
+
+  /** A step from u, where |r(u)| = norm; r: the same or with another tangent behind it. */
+  Step take_step(const double linear_tolerance, const double norm, const Vector &u, Vector &r,
+                 Vector &du, Progress &progress) const;
+
+  /** A step with lagged friction and the factor s of the mass. */
+  Step lagged_step(const double mass, const double linear_tolerance, const Vector &u, Vector &r,
+                   Vector &du) const;
+
+  Step search_energy(const Vector &u, const Vector &du, const Vector &r) const;
 
   Step search(const Vector &u, const Vector &du, const Vector &r, const double norm,
               const LineSearch method) const;
@@ -241,6 +235,9 @@ private:
 
   /** Hooks::balance until it leaves u; whether it moved it. r is r(u) before and after. */
   bool balance(Vector &u, Vector &r) const;
+
+  /** Hooks::balance after a step, unless it raises |r|, see the class documentation. */
+  void balance_after(Step &step, const double norm_before, Progress &progress) const;
 
   void evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const;
 
