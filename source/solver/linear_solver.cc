@@ -34,6 +34,24 @@ constexpr double direct_residual_limit = 1e-3;
 /** Basis vectors of GMRES before a restart. */
 constexpr unsigned int gmres_basis = 150;
 
+/** MUMPS analyses all entries if that is at most this times as many as those that are not zero. */
+constexpr double few_zeros = 1.25;
+
+/** It analyses anew if more of the analysed entries are zero. */
+constexpr double most_zeros = 1.5;
+
+/** Keeps those of the values whose flag is set. */
+template <typename Number>
+void
+keep(const std::vector<bool> &flags, std::vector<Number> &values)
+{
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (flags[i])
+      values[n++] = values[i];
+  values.resize(n);
+}
+
 const EnumNames<LinearSolverType> type_names = {{LinearSolverType::automatic, "automatic"},
                                                 {LinearSolverType::direct, "direct"},
                                                 {LinearSolverType::iterative, "iterative"}};
@@ -151,6 +169,13 @@ public:
 
 private:
   void solve_with_klu(Epetra_MultiVector &left, Epetra_MultiVector &right);
+
+  /**
+   * Makes `mumps` for the entries that are not zero, unless it serves them: contact that is open
+   * couples bodies by zeros, with which the factors of many bodies fill.
+   */
+  void analyse(const MatrixEntries &all);
+
   void solve_with_mumps(Epetra_MultiVector &left, const Epetra_MultiVector &right);
 
   /** The smallest of the return codes on all processes. */
@@ -168,6 +193,7 @@ private:
   Epetra_LinearProblem               problem;
   std::unique_ptr<Amesos_BaseSolver> klu;
   std::unique_ptr<Mumps>             mumps;
+  std::vector<bool>                  is_analysed; //!< by it, of the entries of this process
 };
 
 LinearSolver::Factorisation::Factorisation(const Epetra_CrsMatrix &A, const DirectPackage package,
@@ -222,13 +248,38 @@ LinearSolver::Factorisation::solve_with_klu(Epetra_MultiVector &left, Epetra_Mul
 }
 
 void
+LinearSolver::Factorisation::analyse(const MatrixEntries &all)
+{
+  // Of all processes: entries, those that are not zero, analysed, and not zero but not analysed.
+  std::vector<bool>        is_needed(all.values.size());
+  std::array<long long, 4> mine = {{static_cast<long long>(is_needed.size()), 0, 0, 0}}, n;
+  for (std::size_t i = 0; i < is_needed.size(); ++i)
+    {
+      is_needed[i] = all.values[i] != 0. || all.rows[i] == all.columns[i];
+      mine[1] += is_needed[i];
+      mine[2] += mumps && is_analysed[i];
+      mine[3] += mumps && is_needed[i] && !is_analysed[i];
+    }
+  matrix.Comm().SumAll(mine.data(), n.data(), n.size());
+  if (mumps && n[3] == 0 && n[2] <= most_zeros * n[1])
+    return;
+  if (n[0] <= few_zeros * n[1])
+    is_needed.assign(is_needed.size(), true);
+  is_analysed           = is_needed;
+  MatrixEntries entries = all;
+  keep(is_analysed, entries.rows);
+  keep(is_analysed, entries.columns);
+  mumps = std::make_unique<Mumps>(matrix.NumGlobalRows(), symmetric, entries, std::vector<int>(),
+                                  dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+}
+
+void
 LinearSolver::Factorisation::solve_with_mumps(Epetra_MultiVector       &left,
                                               const Epetra_MultiVector &right)
 {
-  const MatrixEntries entries = matrix_entries(matrix, symmetric);
-  if (!mumps)
-    mumps = std::make_unique<Mumps>(matrix.NumGlobalRows(), symmetric, entries, std::vector<int>(),
-                                    dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+  MatrixEntries entries = matrix_entries(matrix, symmetric);
+  analyse(entries);
+  keep(is_analysed, entries.values);
   mumps->factorise(entries.values);
   std::vector<double> columns;
   for (int k = 0; k < right.NumVectors(); ++k)

@@ -122,6 +122,35 @@ TEST(LinearSolver, NewValuesAreFactorisedAgain)
     }
 }
 
+TEST(LinearSolver, EntriesThatCeaseToBeZeroCount)
+{
+  // Tridiagonal, but for the corners: none, one triangle's and its mirror image, none again.
+  const unsigned int n = 30;
+  Vector             x(complete_index_set(n), MPI_COMM_SELF), b(x);
+  b = 1.;
+  for (const bool symmetric : {true, false})
+    {
+      std::vector<std::vector<double>> rows(n, std::vector<double>(n, 0.));
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          rows[i][j] = i == j ? 3. : std::max(i, j) - std::min(i, j) == 1 ? -1. : 0.;
+      Matrix       matrix = dense(rows);
+      LinearSolver solver(direct(DirectPackage::mumps), 2);
+      for (const double corner : {0., -2., 0.})
+        {
+          matrix.set(0, n - 1, corner);
+          matrix.set(n - 1, 0, symmetric ? corner : 0.5 * corner);
+          matrix.compress(VectorOperation::insert);
+          solver.solve(matrix, x, b, symmetric);
+          Vector r(x);
+          matrix.vmult(r, x);
+          r -= b;
+          EXPECT_LE(r.linfty_norm(), 1e-12) << corner << ' ' << symmetric;
+          EXPECT_EQ(x(0) > 1., corner < 0.);
+        }
+    }
+}
+
 TEST(LinearSolver, AutomaticChoosesBySizeAndSymmetry)
 {
   Square                 square(4, true, MPI_COMM_SELF); // 578 unknowns
