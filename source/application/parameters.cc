@@ -135,6 +135,29 @@ check_combinations(const Parameters<dim> &p, const ParameterSection &discretizat
       combination.section.error(combination.key, combination.what, combination.remedy);
 }
 
+/** Whether a body is rigid, by its name. */
+template <int dim>
+std::map<std::string, bool>
+rigid_bodies(const Parameters<dim> &p)
+{
+  std::map<std::string, bool> result;
+  for (const auto &body : p.bodies)
+    result[body.name]
+      = p.materials.count(body.material) && p.materials.at(body.material).is_rigid();
+  return result;
+}
+
+/** That the stages alone say how long the run is. */
+template <int dim>
+void
+check_times_of_stages(const Parameters<dim> &p, const ParameterSection &section)
+{
+  for (const std::string key : {"End time", "Steps"})
+    if (!p.stages.empty() && section.is_set(key))
+      section.error(key, "the stages have times and steps of their own",
+                    "leave it out, or write it as Duration and Steps of a stage");
+}
+
 /** That probes are in deformable bodies. */
 template <int dim>
 void
@@ -197,6 +220,11 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection time_section = root.subsection("Time", "Load steps.");
   time.declare(time_section);
   time_scheme.declare(time_section);
+  ParameterSection stage_section
+    = root.subsection("Stages", "Stages of loading, one after the other.");
+  stages = declare_stages(stage_section, bodies, rigid_bodies(*this));
+  check_times_of_stages(*this, time_section);
+  apply_stages(stages, bodies, time);
   file.check_tables(time.end_time);
 
   ParameterSection solver_section = root.subsection("Solver", "How the equations are solved.");

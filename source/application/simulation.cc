@@ -10,6 +10,24 @@
 
 namespace scree
 {
+namespace
+{
+/** The name of the stage that begins at a time; empty if none does. */
+template <int dim>
+std::string
+stage_at(const std::vector<StageParameters<dim>> &stages, const double time)
+{
+  double begin = 0.;
+  for (const auto &stage : stages)
+    {
+      if (begin == time)
+        return stage.name;
+      begin += stage.duration;
+    }
+  return "";
+}
+} // namespace
+
 template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
                             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint,
@@ -61,6 +79,9 @@ Simulation<dim>::run()
   stepper->begin();
   while (!step_control.finished())
     {
+      if (const auto stage = stage_at(parameters.stages, step_control.time());
+          n_attempts == 0 && !stage.empty())
+        run_log.log.line("Stage " + stage);
       shorten_step();
       Attempt<dim> attempt = stepper->attempt();
       ++n_attempts;

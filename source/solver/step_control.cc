@@ -134,22 +134,32 @@ StepControl::shorten(const double size)
 StepControlRecord
 StepControl::record() const
 {
-  return {time(), time_of(length), easy_in_a_row, accepted, rejected};
+  const double wanted
+    = parameters.nominal_times.empty()
+        ? time_of(length)
+        : nominal_length() * static_cast<double>(length) / static_cast<double>(ticks_per_step);
+  return {time(), wanted, easy_in_a_row, accepted, rejected};
 }
 
 void
 StepControl::resume(const StepControlRecord &record)
 {
-  const double tick_time = parameters.end_time / static_cast<double>(end_tick);
   require(record.time <= parameters.end_time * (1. + 1e-12), "Time/End time",
           "the run has passed this time: it is at " + std::to_string(record.time),
           "choose a later end");
-  tick = std::llround(record.time / tick_time);
+  tick = tick_at(record.time);
+  require(parameters.nominal_times.empty()
+            || std::abs(time_of(tick) - record.time) <= 1e-12 * parameters.end_time,
+          "Stages",
+          "no step of a stage, nor a part of one, begins at the time of the run, "
+            + std::to_string(record.time),
+          "leave the stages that have begun as they were");
   require(std::abs(time_of(tick) - record.time) <= 1e-12 * parameters.end_time, "Time/Steps",
           "no step of length " + std::to_string(parameters.end_time / parameters.steps)
             + " (End time/Steps), nor a part of one, begins at the time of the run, "
             + std::to_string(record.time),
           "change Steps together with End time, such that the length of a step remains");
+  const double tick_time = nominal_length() / static_cast<double>(ticks_per_step);
   length = std::clamp<std::int64_t>(std::llround(record.length / tick_time), 1, ticks_per_step);
   easy_in_a_row = record.easy_in_a_row;
   accepted      = record.accepted;
@@ -159,9 +169,42 @@ StepControl::resume(const StepControlRecord &record)
 double
 StepControl::time_of(const std::int64_t tick) const
 {
+  if (!parameters.nominal_times.empty())
+    {
+      const std::int64_t step = tick / ticks_per_step, part = tick % ticks_per_step;
+      const double       begin = step == 0 ? 0. : parameters.nominal_times[step - 1];
+      return part == 0 ? begin
+                       : begin
+                           + (parameters.nominal_times[step] - begin) * static_cast<double>(part)
+                               / static_cast<double>(ticks_per_step);
+    }
   return tick == end_tick
            ? parameters.end_time
            : parameters.end_time * static_cast<double>(tick) / static_cast<double>(end_tick);
+}
+
+double
+StepControl::nominal_length() const
+{
+  if (parameters.nominal_times.empty())
+    return parameters.end_time / parameters.steps;
+  const std::int64_t step = std::min(tick, end_tick - 1) / ticks_per_step;
+  return time_of((step + 1) * ticks_per_step) - time_of(step * ticks_per_step);
+}
+
+std::int64_t
+StepControl::tick_at(const double time) const
+{
+  const auto nearest = [](const double x) { return static_cast<std::int64_t>(std::llround(x)); };
+  if (parameters.nominal_times.empty())
+    return nearest(time / (parameters.end_time / static_cast<double>(end_tick)));
+  std::int64_t step = 0;
+  while (step + 1 < end_tick / ticks_per_step && parameters.nominal_times[step] <= time)
+    ++step;
+  const double begin = time_of(step * ticks_per_step);
+  return step * ticks_per_step
+         + nearest((time - begin) / (parameters.nominal_times[step] - begin)
+                   * static_cast<double>(ticks_per_step));
 }
 
 std::int64_t

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/stages.h>
 #include <scree/application/study_parameters.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/grid/background_grid.h>
@@ -46,7 +47,8 @@ struct Parameters
   std::vector<BodyParameters<dim>>          bodies;
   ContactParameters                         contact;
   MovingGeometryParameters                  moving;
-  TimeParameters                            time;
+  TimeParameters                            time;   //!< with those of the stages
+  std::vector<StageParameters<dim>>         stages; //!< empty: one motion for the whole run
   TimeSchemeParameters                      time_scheme;
   NewtonParameters                          newton;
   LinearSolverParameters                    linear_solver;

@@ -3,6 +3,7 @@
 #include <scree/parameters/section.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace scree
 {
@@ -14,6 +15,9 @@ struct TimeParameters
 
   /** Number of nominal steps of equal length, >= 1. */
   unsigned int steps = 1;
+
+  /** Ends of the nominal steps, the last one at end_time; empty: they are of equal length. */
+  std::vector<double> nominal_times;
 
   /** A step is cut down to this fraction of a nominal one at most; 0 < fraction <= 1. */
   double minimum_step_fraction = 1. / 64;
@@ -43,11 +47,11 @@ struct StepControlRecord
 
 /**
  * Chooses the load steps: nominal ones at first; a rejected step is halved and tried again; after
- * two easy steps the length is doubled, up to the nominal one. Every nominal time k T/n is met
- * exactly, a step that would pass one is shortened.
+ * two easy steps the length is doubled, up to the nominal one. Every nominal time, k T/n or
+ * `nominal_times`, is met exactly, a step that would pass one is shortened.
  *
- * Time is counted in ticks of T/(n 2^m), with 2^-m the smallest power of two that is not below the
- * minimum fraction, so that no rounding accumulates.
+ * Time is counted in ticks, each a nominal step over 2^m, with 2^-m the smallest power of two that
+ * is not below the minimum fraction, so that no rounding accumulates.
  *
  *     while (!control.finished())
  *       if (solve(control.next_time()))     control.accept(iterations);
@@ -102,6 +106,12 @@ public:
 
 private:
   double time_of(const std::int64_t tick) const;
+
+  /** Length of the nominal step that begins, or goes on, at the present time. */
+  double nominal_length() const;
+
+  /** The tick that is nearest to a time. */
+  std::int64_t tick_at(const double time) const;
 
   std::int64_t step_ticks() const;
 
