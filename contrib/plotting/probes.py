@@ -8,18 +8,23 @@ from .results import read_table
 from .style import save, short
 
 MOST_ROWS = 6
-GROUPS = (("displacement", "length", r"u_[xyz]"), ("stress", "stress", r"stress_[xyz]{2}|von_mises"))
+GROUPS = (("displacement", "length", r"u_[xyz]"), ("stress", "stress", r"stress_[xyz]{2}|von_mises"),
+          ("plastic strain", "", r"plastic_strain"))
 
 
 def grouped(columns):
-    """(title, quantity, columns) for displacements and stresses."""
-    return [(title, quantity, [name for name in columns if re.fullmatch(pattern, name)]) for title, quantity, pattern in GROUPS]
+    """(title, quantity, columns) for displacements, stresses and, where a material may flow, plastic strains."""
+    groups = [(title, quantity, [name for name in columns if re.fullmatch(pattern, name)]) for title, quantity, pattern in GROUPS]
+    return [group for group in groups if group[2]]
 
 
 def draw_curves(run, rows, label):
-    """A row of two panels for each (name, places, table); the figure."""
-    figure, panels = plt.subplots(len(rows), 2, squeeze=False, figsize=(13, 3.4 * len(rows) + 0.5))
+    """A row of panels for each (name, places, table), one for each group of columns; the figure."""
+    width = max(len(grouped(table)) for _, _, table in rows)
+    figure, panels = plt.subplots(len(rows), width, squeeze=False, figsize=(6.5 * width, 3.4 * len(rows) + 0.5))
     for row, (name, places, table) in zip(panels, rows):
+        for panel in row[len(grouped(table)):]:
+            panel.set_axis_off()
         for panel, (title, quantity, columns) in zip(row, grouped(table)):
             for column in columns:
                 panel.plot(places, table[column], marker="o" if len(places) < 30 else "", markersize=4,

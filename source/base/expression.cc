@@ -181,7 +181,9 @@ constant_value(const std::string &text)
       if (c == ';' || (c == ',' && depth == 0))
         return {};
     }
-  if (assigns(text) || text.find("rand") != std::string::npos)
+  // 0x10 would be a hexadecimal number.
+  if (assigns(text) || text.find("rand") != std::string::npos
+      || text.find("0x") != std::string::npos)
     return {};
   try
     {

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
+#include <limits>
+#include <regex>
 #include <sstream>
 
 namespace scree
@@ -16,15 +19,37 @@ namespace
 {
 constexpr std::size_t largest_time_table = 64000000; // bytes
 
-/** The number that a cell is; NaN if it is none that is finite. */
+/** The decimal number that a cell is; NaN if it is none that is finite. */
 double
 number_in(const std::string &cell)
 {
-  char        *end    = nullptr;
-  const double number = std::strtod(cell.c_str(), &end);
-  return !cell.empty() && *end == '\0' && std::isfinite(number)
+  const bool        has_plus = cell.size() > 1 && cell[0] == '+' && cell[1] != '-';
+  const char *const last     = cell.data() + cell.size();
+  double            number   = 0.;
+  const auto        result   = std::from_chars(cell.data() + has_plus, last, number);
+  return result.ec == std::errc() && result.ptr == last && std::isfinite(number)
            ? number
            : std::numeric_limits<double>::quiet_NaN();
+}
+
+/** The call whose inner text is given, with what users write by mistake. */
+TableCall
+table_call(const std::string &inside, const std::string &where)
+{
+  const auto        comma = inside.find(',');
+  const std::string file  = dealii::Utilities::trim(inside.substr(0, comma));
+  require(file.empty() || (file[0] != '"' && file[0] != '\''), where,
+          "the name of a table stands in quotes: " + file, "write table(load.csv)");
+  if (comma == std::string::npos)
+    return {0, 0, file, ""};
+  const std::string checksum = dealii::Utilities::trim(inside.substr(comma + 1));
+  require(checksum.size() == 8
+            && checksum.find_first_not_of("0123456789abcdef") == std::string::npos,
+          where, "'" + checksum + "' behind the name of a table is no checksum",
+          "write table(" + file
+            + "): of two columns, time and value; the program writes the checksum in "
+              "parameters.prm");
+  return {0, 0, file, checksum};
 }
 } // namespace
 
@@ -92,20 +117,21 @@ read_time_table(const std::string &path)
 std::vector<TableCall>
 table_calls(const std::string &formula, const std::string &where)
 {
-  const std::string      name = "table(";
+  const std::string name = "table(";
+  require(!std::regex_search(formula, std::regex("\\btable\\s+\\(")), where,
+          "'" + formula + "' has a blank between table and the parenthesis",
+          "write table(load.csv)");
   std::vector<TableCall> calls;
   for (std::size_t begin = formula.find(name); begin != std::string::npos;)
     {
       const auto end = formula.find(')', begin);
       require(end != std::string::npos, where, "'" + formula + "' has a table without an end",
               "write table(load.csv)");
-      const std::string inside = formula.substr(begin + name.size(), end - begin - name.size());
-      const auto        comma  = inside.find(',');
-      const std::string file   = dealii::Utilities::trim(inside.substr(0, comma));
-      const std::string checksum
-        = comma == std::string::npos ? "" : dealii::Utilities::trim(inside.substr(comma + 1));
-      calls.push_back({begin, end + 1 - begin, file, checksum});
-      begin = formula.find(name, end);
+      calls.push_back(
+        table_call(formula.substr(begin + name.size(), end - begin - name.size()), where));
+      calls.back().begin  = begin;
+      calls.back().length = end + 1 - begin;
+      begin               = formula.find(name, end);
     }
   return calls;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace scree
@@ -73,7 +74,7 @@ DisplacementSpace<dim>::classify(const LevelSetNodes<dim>     &level_set_nodes,
   using Content = std::vector<std::pair<unsigned int, bool>>;
   dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
     grid.triangulation(),
-    [&](const auto &cell) -> dealii::std_cxx17::optional<Content> {
+    [&](const auto &cell) -> std::optional<Content> {
       return bodies_of_cell[grid.local_index(*cell)];
     },
     [&](const auto &cell, const Content &content) {

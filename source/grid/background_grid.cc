@@ -195,9 +195,8 @@ BackgroundGrid<dim>::share(const std::vector<Body<dim>> &bodies)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(communicator()) == 1)
     return;
-  // deal.II gives every cell 1000, which covers a cell without body.
-  constexpr unsigned int    weight_of_body = 10000, weight_of_cut = 10000;
-  std::vector<unsigned int> weights(tria.n_active_cells(), 0);
+  constexpr unsigned int    weight_of_cell = 1000, weight_of_body = 10000, weight_of_cut = 10000;
+  std::vector<unsigned int> weights(tria.n_active_cells(), weight_of_cell);
   CellBodies<dim>(bodies).visit(
     tria, [](const double size) { return 0.5 * std::sqrt(double(dim)) * size; },
     [&](const auto &cell, const std::vector<unsigned int> &near) {
@@ -212,7 +211,7 @@ BackgroundGrid<dim>::share(const std::vector<Body<dim>> &bodies)
                     + (std::abs(distance) < half_diagonal ? weight_of_cut : 0);
         }
     });
-  const auto connection = tria.signals.cell_weight.connect(
+  const auto connection = tria.signals.weight.connect(
     [&](const auto &cell, const auto) { return weights[cell->active_cell_index()]; });
   tria.repartition();
   connection.disconnect();

@@ -4,6 +4,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace scree
 {
@@ -55,7 +56,7 @@ exchange_to_ghosts(const DisplacementSpace<dim> &space, std::vector<std::vector<
     of_grid_cell[space.cells()[a].grid_cell].emplace_back(space.cells()[a].body, of_cells[a]);
   dealii::GridTools::exchange_cell_data_to_ghosts<Content, dealii::Triangulation<dim>>(
     space.grid.triangulation(),
-    [&](const auto &cell) -> dealii::std_cxx17::optional<Content> {
+    [&](const auto &cell) -> std::optional<Content> {
       return of_grid_cell[space.grid.local_index(*cell)];
     },
     [&](const auto &cell, const Content &content) {

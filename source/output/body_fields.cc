@@ -137,11 +137,17 @@ BodyFields<dim>::values(const VertexSample<dim> &sample) const
 
 template <int dim>
 bool
+may_flow(const Body<dim> &body)
+{
+  return body.law && body.law->secant_ratio(1.) < 1.;
+}
+
+template <int dim>
+bool
 may_flow(const std::vector<Body<dim>> &bodies)
 {
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body<dim> &body) {
-    return body.law && body.law->secant_ratio(1.) < 1.;
-  });
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const Body<dim> &body) { return may_flow(body); });
 }
 
 template <int dim>
@@ -159,6 +165,8 @@ von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz)
 
 template class BodyFields<2>;
 template class BodyFields<3>;
+template bool   may_flow(const Body<2> &);
+template bool   may_flow(const Body<3> &);
 template bool   may_flow(const std::vector<Body<2>> &);
 template bool   may_flow(const std::vector<Body<3>> &);
 template double von_mises(const dealii::SymmetricTensor<2, 2> &, const double);

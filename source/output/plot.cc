@@ -11,10 +11,23 @@
 
 namespace scree
 {
+namespace
+{
+/** The script of an installed program is beside it, in ../share, otherwise it is in the sources. */
+std::filesystem::path
+plot_script()
+{
+  std::error_code error;
+  const auto      program   = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto      installed = program.parent_path().parent_path() / "share/scree/contrib/plot";
+  return std::filesystem::exists(installed, error) ? installed : SCREE_PLOT_SCRIPT;
+}
+} // namespace
+
 void
 plot(const std::string &directory, const MPI_Comm communicator)
 {
-  const std::string script = SCREE_PLOT_SCRIPT;
+  const std::string script = plot_script();
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0
       || !std::filesystem::exists(script))
     return;
@@ -32,6 +45,6 @@ plot(const std::string &directory, const MPI_Comm communicator)
       }
   if (status != 0)
     std::cout << "No pictures: " << script << " failed for the directory " << directory
-              << std::endl;
+              << "; it needs python3-numpy, python3-matplotlib and python3-vtk9" << std::endl;
 }
 } // namespace scree

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
@@ -24,8 +25,18 @@ ProbeParameters<dim>::declare(ParameterSection &section)
 }
 
 template <int dim>
+unsigned int
+body_of_probe(const ProbeParameters<dim> &probe, const std::vector<Body<dim>> &bodies)
+{
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const Body<dim> &body) { return body.name == probe.body; });
+  AssertThrow(found != bodies.end(), dealii::ExcMessage("a probe names an unknown body"));
+  return found - bodies.begin();
+}
+
+template <int dim>
 std::vector<std::string>
-sample_columns()
+sample_columns(const ProbeParameters<dim> &probe)
 {
   std::vector<std::string> names(axes.begin(), axes.begin() + dim);
   for (unsigned int d = 0; d < dim; ++d)
@@ -34,6 +45,8 @@ sample_columns()
   if (dim == 2)
     names.push_back("stress_zz");
   names.push_back("von_mises");
+  if (probe.with_plastic_strain)
+    names.push_back("plastic_strain");
   return names;
 }
 
@@ -46,7 +59,7 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body,
   const PointEvaluator<dim> u(space, ghosted);
   const MPI_Comm            communicator = space.grid.communicator();
   const unsigned int        rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const unsigned int        n_columns    = sample_columns<dim>().size();
+  const unsigned int        n_columns    = sample_columns(probe).size();
   // A row ends with whether it was found.
   std::vector<double> values(probe.n_points * (n_columns + 1), 0.);
   const auto          place = [&](const unsigned int i) {
@@ -74,7 +87,9 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body,
       if (dim == 2)
         *value++ = sampled.out_of_plane_stress;
       *value++ = von_mises(sampled.stress, sampled.out_of_plane_stress);
-      *value   = 1.;
+      if (probe.with_plastic_strain)
+        *value++ = sampled.plastic_strain;
+      *value = 1.;
     }
   dealii::Utilities::MPI::sum(values, communicator, values);
   std::vector<std::vector<double>> rows;
@@ -97,11 +112,13 @@ sample(const ProbeParameters<dim> &probe, const unsigned int body,
   return rows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                        \
-  template struct ProbeParameters<dim>;                                               \
-  template std::vector<std::string>         sample_columns<dim>();                    \
-  template std::vector<std::vector<double>> sample(                                   \
-    const ProbeParameters<dim> &, const unsigned int, const DisplacementSpace<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                             \
+  template struct ProbeParameters<dim>;                                                    \
+  template unsigned int                     body_of_probe(const ProbeParameters<dim> &,    \
+                                                          const std::vector<Body<dim>> &); \
+  template std::vector<std::string>         sample_columns(const ProbeParameters<dim> &);  \
+  template std::vector<std::vector<double>> sample(                                        \
+    const ProbeParameters<dim> &, const unsigned int, const DisplacementSpace<dim> &,      \
     const Bulk<dim> &, const dealii::TrilinosWrappers::MPI::Vector &, const bool);
 
 SCREE_INSTANTIATE(2)

@@ -78,6 +78,8 @@ Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>>
     , pairs_change(pairs_change)
     , long_tables(directory, bodies)
 {
+  for (auto &probe : this->probes)
+    probe.with_plastic_strain = may_flow(bodies[body_of_probe(probe, bodies)]);
 }
 
 template <int dim>
@@ -169,7 +171,7 @@ Results<dim>::probe_columns() const
   std::vector<std::string> names;
   for (const auto &probe : probes)
     if (probe.n_points == 1)
-      for (const std::string &column : sample_columns<dim>())
+      for (const std::string &column : sample_columns(probe))
         names.push_back(probe.name + "." + column);
   return names;
 }
@@ -341,7 +343,7 @@ Results<dim>::write_fields(const StepRecord &record, const Kinematics<dim> &kine
           continue;
         CsvTable table(directory + "/line_" + probe.name + "_"
                          + dealii::Utilities::int_to_string(record.step, 4) + ".csv",
-                       sample_columns<dim>());
+                       sample_columns(probe));
         table.add_rows(rows);
         is_written &= table.flush();
       }
@@ -378,7 +380,7 @@ std::vector<std::vector<double>>
 Results<dim>::sample_probe(const ProbeParameters<dim> &probe, const Kinematics<dim> &kinematics,
                            const Vector &ghosted_u) const
 {
-  return sample(probe, body_index(probe.body), *space, kinematics.bulk(), ghosted_u,
+  return sample(probe, body_of_probe(probe, bodies), *space, kinematics.bulk(), ghosted_u,
                 !kinematics.moves_bodies());
 }
 
@@ -387,7 +389,7 @@ void
 Results<dim>::require_probes(const Kinematics<dim> &kinematics, const Vector &ghosted_u) const
 {
   for (const auto &probe : probes)
-    sample(probe, body_index(probe.body), *space, kinematics.bulk(), ghosted_u, true);
+    sample(probe, body_of_probe(probe, bodies), *space, kinematics.bulk(), ghosted_u, true);
 }
 
 template <int dim>
@@ -482,17 +484,6 @@ Results<dim>::write_pvd(const std::string                                 &name,
   return !is_first || write_file(directory + "/" + name, [&](std::ofstream &file) {
     dealii::DataOutBase::write_pvd_record(file, records);
   });
-}
-
-template <int dim>
-unsigned int
-Results<dim>::body_index(const std::string &name) const
-{
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    if (bodies[b].name == name)
-      return b;
-  AssertThrow(false, dealii::ExcMessage("a probe names an unknown body"));
-  return dealii::numbers::invalid_unsigned_int;
 }
 
 template class Results<2>;

@@ -16,6 +16,9 @@ namespace scree
 {
 namespace
 {
+/** Of each process: with fewer, messages cost about what is gained (the rule of thumb of PETSc). */
+constexpr unsigned int fewest_unknowns_that_pay = 10000;
+
 std::string
 resident_memory()
 {
@@ -53,6 +56,12 @@ RunReport<dim>::set_up(const DiscreteProblem<dim> &problem, const bool pairs_cha
     "Unknowns: " + std::to_string(problem.space.n_dofs()) + " of degree " + std::to_string(degree)
     + " in " + std::to_string(problem.space.n_fields()) + " field(s)"
     + (of_level_sets == degree ? "" : ", level sets of degree " + std::to_string(of_level_sets)));
+  const auto n_processes = dealii::Utilities::MPI::n_mpi_processes(problem.communicator());
+  if (const auto each = problem.space.n_dofs() / n_processes;
+      n_processes > 1 && each < fewest_unknowns_that_pay)
+    log.line("Processes: " + std::to_string(n_processes) + " with " + std::to_string(each)
+             + " unknowns each; below " + std::to_string(fewest_unknowns_that_pay)
+             + " fewer processes are often as fast");
   const auto &bodies  = problem.bodies;
   const auto  volumes = problem.bulk.volumes();
   if (bodies.size() > most_told)

@@ -183,6 +183,8 @@ parse_number(const std::string &text, Number &value)
   const std::string rest = Utilities::trim(std::string(result.ptr, last));
   if (rest[0] == ',')
     return {false, "write one number; a decimal fraction has a point, not a comma"};
+  if (text.find("0x") != std::string::npos)
+    return {false, "write a decimal number"};
   if (std::isalpha(static_cast<unsigned char>(rest[0])) || rest[0] == '%')
     return {false, "write the number alone, without '" + rest
                      + "': units are not converted, use one consistent system"};

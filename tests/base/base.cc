@@ -5,10 +5,13 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
 #include <scree/base/log.h>
+#include <scree/base/time_table.h>
 
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+
+#include "../messages.h"
 
 namespace scree
 {
@@ -40,8 +43,9 @@ TEST(TimeTable, IsLinearBetweenItsRows)
   EXPECT_EQ(table.value(2. + 1e-12), -1.); // rounding of times
   EXPECT_THROW(table.value(2.001), UserError);
   EXPECT_THROW(table.value(-0.001), UserError);
-  for (const char *text : {"", "0, 1", "0, 1\n0, 2", "0, 1\n1", "0, 1\n1, 2, 3", "0, 1\n1, inf",
-                           "t, f\nt, f\n0, 1\n1, 1", "0; 1\n1; 2", "0, 1\n1, 2x"})
+  for (const char *text :
+       {"", "0, 1", "0, 1\n0, 2", "0, 1\n1", "0, 1\n1, 2, 3", "0, 1\n1, inf",
+        "t, f\nt, f\n0, 1\n1, 1", "0; 1\n1; 2", "0, 1\n1, 2x", "0, 1\n1, 0x10", "0, 1\n1, +-1"})
     EXPECT_THROW(TimeTable(text, "load.csv"), UserError) << text;
 }
 
@@ -49,7 +53,7 @@ TEST(TimeTable, InFormulas)
 {
   const std::string file = testing::TempDir() + "scree_load.csv";
   std::ofstream(file) << "0, 0\n2, 4\n";
-  const std::string   call = "table(" + file + ", 0)";
+  const std::string   call = "table(" + file + ", 00000000)";
   const Expression<2> f("x + " + call + "; 2*" + call + " - " + call + "*t", 2, "here");
   for (const double time : {0., 1., 2., 0.5, 0.25, 0.75, 1.25, 1.5, 1.})
     {
@@ -58,15 +62,27 @@ TEST(TimeTable, InFormulas)
     }
   EXPECT_THROW(f.value(Point<2>(), 2.1), UserError);
   EXPECT_THROW(Expression<2>("table(" + file + ")", 1, "here"), UserError); // no place for tables
-  EXPECT_THROW(Expression<2>("table(/none.csv, 0)", 1, "here"), UserError);
+  EXPECT_THROW(Expression<2>("table(/none.csv, 00000000)", 1, "here"), UserError);
   std::remove(file.c_str());
+}
+
+TEST(TimeTable, TellsWhatIsWrongWithACall)
+{
+  const auto told
+    = [](const std::string &call) { return complaint([&] { table_calls("2*" + call, "here"); }); };
+  EXPECT_EQ(told("table( load.csv , 0123abcd )"), "");
+  expect_contains(told("table (load.csv)"), "a blank between table and the parenthesis");
+  expect_contains(told("table(\"load.csv\")"), "in quotes: \"load.csv\"");
+  expect_contains(told("table(load.csv, 2)"), "'2' behind the name of a table is no checksum");
+  expect_contains(told("table(load.csv"), "a table without an end");
 }
 
 TEST(ConstantValue, OfFormulasWithoutVariables)
 {
   EXPECT_EQ(constant_value("0.5 + 0.866"), 0.5 + 0.866);
   EXPECT_EQ(constant_value("max(1, 2)*pi"), 2. * M_PI);
-  for (const char *text : {"", "x", "t", "1,2", "1;2", "2 mm", "a = 1", "rand()", "1 +", "(1"})
+  for (const char *text :
+       {"", "x", "t", "1,2", "1;2", "2 mm", "a = 1", "rand()", "1 +", "(1", "0x10"})
     EXPECT_FALSE(constant_value(text)) << text;
 }
 

@@ -191,7 +191,7 @@ TEST(Probes, UniaxialStrain)
   const auto u    = model.equilibrium.with_ghosts(model.state.displacement);
   const auto rows = sample(probe, 1, *model.cut.space, model.bulk, u, true);
   ASSERT_EQ(rows.size(), 5u);
-  const auto names  = sample_columns<2>();
+  const auto names  = sample_columns(probe);
   const auto column = [&](const std::string &name) {
     return std::find(names.begin(), names.end(), name) - names.begin();
   };

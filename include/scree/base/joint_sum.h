@@ -27,8 +27,8 @@ public:
   template <int rank, int dim>
   void add(dealii::Tensor<rank, dim> &tensor)
   {
-    for (double *number = tensor.begin_raw(); number != tensor.end_raw(); ++number)
-      add(*number);
+    for (unsigned int i = 0; i < dim; ++i)
+      add(tensor[i]);
   }
 
   /** Replaces what was added, which must still be where it was, by its sums. Collective. */

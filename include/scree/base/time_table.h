@@ -39,6 +39,11 @@ struct TableCall
   std::string file, checksum;
 };
 
-/** All calls in a formula, in order. @throws UserError if one has no end; names `where` */
+/**
+ * All calls in a formula, in order.
+ *
+ * @throws UserError if one has no end, a blank before its parenthesis, a file in quotes, or what is
+ *   no checksum; names `where`
+ */
 std::vector<TableCall> table_calls(const std::string &formula, const std::string &where);
 } // namespace scree

@@ -4,6 +4,7 @@
 
 #include <deal.II/boost_adaptors/bounding_box.h>
 
+#include <boost/geometry.hpp> // all that the tree needs: Boost 1.83 does not include it there
 #include <boost/geometry/index/rtree.hpp>
 #include <utility>
 #include <vector>

@@ -65,6 +65,10 @@ private:
 
 /** Whether a body has a yield stress. */
 template <int dim>
+bool may_flow(const Body<dim> &body);
+
+/** Whether one of the bodies has. */
+template <int dim>
 bool may_flow(const std::vector<Body<dim>> &bodies);
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */

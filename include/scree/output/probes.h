@@ -15,16 +15,21 @@ struct ProbeParameters
 {
   std::string        name;
   std::string        body;
-  dealii::Point<dim> start;        //!< the point, or the first one of a line [L]
-  dealii::Point<dim> end;          //!< of a line [L]
-  unsigned int       n_points = 1; //!< 1: a point
+  dealii::Point<dim> start;                       //!< the point, or the first one of a line [L]
+  dealii::Point<dim> end;                         //!< of a line [L]
+  unsigned int       n_points            = 1;     //!< 1: a point
+  bool               with_plastic_strain = false; //!< whether the body has a yield stress
 
   void declare(ParameterSection &section);
 };
 
-/** Columns of a table of samples: position, displacement, stress, von Mises. */
+/** The number of the body of a probe. */
 template <int dim>
-std::vector<std::string> sample_columns();
+unsigned int body_of_probe(const ProbeParameters<dim> &probe, const std::vector<Body<dim>> &bodies);
+
+/** Columns of the samples of a probe: position, displacement, stress, von Mises, plastic strain. */
+template <int dim>
+std::vector<std::string> sample_columns(const ProbeParameters<dim> &probe);
 
 /**
  * Samples of a probe, at places that do not move with the body; `u` ghosted. Same rows on all

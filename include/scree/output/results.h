@@ -159,11 +159,10 @@ private:
   std::vector<std::string> probe_columns() const;
   std::vector<std::string> probe_table_columns() const;
   /** Adds a file to a PVD record; false if the file, empty, or the record was not written. */
-  bool         add_picture(const double time, const std::string &file, const std::string &pvd,
-                           std::vector<std::pair<double, std::string>> &records) const;
-  bool         write_pvd(const std::string                                 &name,
-                         const std::vector<std::pair<double, std::string>> &records) const;
-  unsigned int body_index(const std::string &name) const;
+  bool add_picture(const double time, const std::string &file, const std::string &pvd,
+                   std::vector<std::pair<double, std::string>> &records) const;
+  bool write_pvd(const std::string                                 &name,
+                 const std::vector<std::pair<double, std::string>> &records) const;
 
   std::string                                 directory;
   const std::vector<Body<dim>>               &bodies;
