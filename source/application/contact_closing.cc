@@ -148,8 +148,8 @@ ContactClosing<dim>::settle()
   constexpr double       negligible = 1e-3;
   if (!model.is_moving() || model.problem().equilibrium().free_bodies().empty())
     return;
-  State<dim>   before  = model.state();
-  unsigned int n_moves = 0;
+  std::optional<State<dim>> before; // the first move
+  unsigned int              n_moves = 0;
   for (; n_moves < max_moves; ++n_moves)
     {
       Equilibrium<dim>          &equilibrium = model.problem().equilibrium();
@@ -163,11 +163,13 @@ ContactClosing<dim>::settle()
         break;
       equilibrium.residual(u, history, r);
       auto points = stepper.move_points(u).first;
+      if (!before)
+        before = model.state();
       equilibrium.accept_as_transfer(u, history);
       go_on_from(u, std::move(points));
     }
   if (n_moves == max_moves)
-    model.go_back(std::move(before), step_control.step_size());
+    model.go_back(std::move(*before), step_control.step_size());
   else if (n_moves > 0)
     run_log.log.line("  bodies that nothing holds fall until contact does, in "
                      + std::to_string(n_moves) + " move(s)");

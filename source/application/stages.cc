@@ -1,6 +1,7 @@
 #include <scree/application/stages.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
+#include <scree/bodies/motion_keys.h>
 #include <scree/parameters/nearest_name.h>
 
 #include <algorithm>
@@ -13,17 +14,6 @@ namespace scree
 {
 namespace
 {
-/** "Displacement x" or "Rotation"; with `of_load` "Force x" or "Moment". */
-template <int dim>
-std::string
-key_of(const unsigned int component, const bool of_load)
-{
-  const std::string name = rigid_component_names<dim>()[component];
-  if (component < dim)
-    return (of_load ? "Force " : "Displacement ") + name;
-  return (of_load ? "Moment" : "Rotation") + name.substr(std::string("rotation").size());
-}
-
 /** Why a formula of a stage cannot be used, and the remedy; empty: it can. */
 template <int dim>
 std::pair<std::string, std::string>
@@ -59,7 +49,7 @@ declare_stage_motion(const ParameterSection &section, const MotionParameters<dim
   for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
     for (const bool of_load : {false, true})
       {
-        const std::string key  = key_of<dim>(m, of_load);
+        const std::string key  = motion_key<dim>(m, of_load);
         std::string      &text = (of_load ? result.load : result.motion)[m];
         section.entry(key, text,
                       "By how much it has changed since the stage began, a formula of the time t "
@@ -74,12 +64,12 @@ declare_stage_motion(const ParameterSection &section, const MotionParameters<dim
           section.error(key,
                         "section Bodies gives the body's "
                           + std::string(is_free ? "load, not its motion" : "motion, not its load"),
-                        "change " + key_of<dim>(m, !of_load)
+                        "change " + motion_key<dim>(m, !of_load)
                           + (is_free ? "" : ", or set " + key + " = 0 in its section Motion"));
       }
   if (!is_given)
     section.error("", "nothing is said of the body",
-                  "give " + key_of<dim>(0, false) + " or the like, or take it from Bodies");
+                  "give " + motion_key<dim>(0, false) + " or the like, or take it from Bodies");
   return result;
 }
 

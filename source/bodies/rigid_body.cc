@@ -1,4 +1,5 @@
 #include <scree/base/exceptions.h>
+#include <scree/bodies/motion_keys.h>
 #include <scree/bodies/rigid_body.h>
 #include <scree/parameters/expression_entry.h>
 
@@ -152,14 +153,11 @@ MotionParameters<dim>::declare(ParameterSection &section)
   is_given = section.is_set("Reference point");
   if (!reference_point.empty() && reference_point.size() != dim)
     section.error("Reference point", "needs " + std::to_string(dim) + " coordinates");
-  const auto names = rigid_component_names<dim>();
-  for (unsigned int m = 0; m < names.size(); ++m)
+  for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
     {
       const bool        is_rotation = m >= dim;
-      const std::string axis        = is_rotation ? names[m].substr(8) : " " + names[m];
-      const std::string motion_key  = (is_rotation ? "Rotation" : "Displacement") + axis;
-      const std::string load_key    = (is_rotation ? "Moment" : "Force") + axis;
-      section.formula(motion_key, motion[m],
+      const std::string moved = motion_key<dim>(m, false), loaded = motion_key<dim>(m, true);
+      section.formula(moved, motion[m],
                       is_rotation
                         ? (dim == 2 ? "Prescribed rotation, counter-clockwise, a formula "
                                       "of t [rad]."
@@ -167,17 +165,17 @@ MotionParameters<dim>::declare(ParameterSection &section)
                                       "formula of t [rad].")
                         : "Prescribed displacement of the reference point, a formula of t "
                           "[L].");
-      section.formula(load_key, load[m],
+      section.formula(loaded, load[m],
                       is_rotation ? "Moment about the reference point in its current position, a "
                                     "formula of t; the rotation is then unknown [force L]."
                                   : "Force, a formula of t; the displacement is then unknown "
                                     "[force].");
       is_given |= !motion[m].empty() || !load[m].empty();
       if (!motion[m].empty() && !load[m].empty())
-        section.error(load_key, "both " + motion_key + " and " + load_key + " are given",
+        section.error(loaded, "both " + moved + " and " + loaded + " are given",
                       "give the motion or the load of a component, not both");
       for (const auto &[key, text] :
-           {std::make_pair(motion_key, motion[m]), std::make_pair(load_key, load[m])})
+           {std::make_pair(moved, motion[m]), std::make_pair(loaded, load[m])})
         if (!text.empty())
           check_expression<dim>(section, key, text, 1);
     }

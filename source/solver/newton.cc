@@ -124,12 +124,15 @@ struct Newton::Progress
   /** The largest residual with which a balance is tried. */
   double balance_below = std::numeric_limits<double>::infinity();
 
-  /** @param ratio of the residuals after and before the step */
-  void end_step(const double alpha, const double ratio, const bool has_mass)
+  /**
+   * @param ratio of the residuals after and before the step
+   * @param rises whether it is above 1 where something moves freely
+   */
+  void end_step(const double alpha, const double ratio, const bool rises)
   {
     if (!is_lagged)
       {
-        is_lagged = alpha < short_step || (ratio > 1. && has_mass);
+        is_lagged = alpha < short_step || rises;
         n_full    = 0;
         return;
       }
@@ -409,7 +412,10 @@ Newton::solve(Vector &u) const
           return result;
         }
       if (can_lag())
-        progress.end_step(step.alpha, step.norm / iteration.residual, hooks.mass_work(du) > 0.);
+        {
+          const double ratio = step.norm / iteration.residual;
+          progress.end_step(step.alpha, ratio, ratio > 1. && hooks.mass_work(du) > 0.);
+        }
       balance_after(step, iteration.residual, progress);
       u                           = step.u;
       r                           = step.r;

@@ -16,14 +16,15 @@ namespace
 Parameters<2>
 staged(const std::string &stages, const std::string &rest = "")
 {
-  const std::string shape = R"(
-      set Material = rigid
-      subsection Shape
-        set Type = half space
-        set Point = 0, 0
-        set Normal = 1, 0
-      end
+  const auto half_space = [](const std::string &material) {
+    return "\n    set Material = " + material + R"(
+    subsection Shape
+      set Type = half space
+      set Point = 0, 0
+      set Normal = 1, 0
+    end
 )";
+  };
   ParameterFile file = ParameterFile::from_string(R"(
 subsection Grid
   set Lower corner = -1, -1
@@ -42,23 +43,17 @@ subsection Materials
 end
 subsection Bodies
   set Names = wall, lid, block
-  subsection wall)" + shape + R"(
+  subsection wall)" + half_space("rigid") + R"(
     subsection Motion
       set Displacement x = 0.5*t
     end
   end
-  subsection lid)" + shape + R"(
+  subsection lid)" + half_space("rigid") + R"(
     subsection Motion
       set Force y = 0
     end
   end
-  subsection block
-    set Material = soft
-    subsection Shape
-      set Type = half space
-      set Point = 0, 0
-      set Normal = 1, 0
-    end
+  subsection block)" + half_space("soft") + R"(
   end
 end
 subsection Stages
