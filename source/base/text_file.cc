@@ -1,10 +1,13 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/text_file.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace scree
 {
@@ -100,5 +103,20 @@ read_text_file(const std::string &path, const std::size_t largest_size, const st
                const std::string &remedy, const std::string &what)
 {
   return checked_text(read_bytes(path, largest_size, where, remedy, what), path);
+}
+
+std::vector<DataLine>
+data_lines(const std::string &text, const std::string &name)
+{
+  std::vector<DataLine> lines;
+  std::istringstream    in(text);
+  std::string           line;
+  for (std::size_t n = 1; std::getline(in, line); ++n)
+    {
+      line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+      if (!line.empty())
+        lines.push_back({line, name + ":" + std::to_string(n), n});
+    }
+  return lines;
 }
 } // namespace scree

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <regex>
-#include <sstream>
 
 namespace scree
 {
@@ -56,16 +55,10 @@ table_call(const std::string &inside, const std::string &where)
 TimeTable::TimeTable(const std::string &text, const std::string &name)
     : name(name)
 {
-  std::istringstream in(text);
-  std::string        line;
-  bool               may_have_names = true;
-  for (unsigned int n = 1; std::getline(in, line); ++n)
+  bool may_have_names = true;
+  for (const auto &[line, where, number] : data_lines(text, name))
     {
-      line = dealii::Utilities::trim(line.substr(0, line.find('#')));
-      if (line.empty())
-        continue;
-      const std::string where = name + ":" + std::to_string(n);
-      const auto        comma = line.find(',');
+      const auto comma = line.find(',');
       require(comma != std::string::npos && line.find(',', comma + 1) == std::string::npos, where,
               "'" + line + "' is no pair of a time and a value", "write 0.5, 12.3");
       const double time  = number_in(dealii::Utilities::trim(line.substr(0, comma)));

@@ -8,7 +8,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace scree
 {
@@ -33,19 +32,13 @@ struct TextTable
 
 TextTable::TextTable(const std::string &bytes, const std::string &name)
 {
-  std::istringstream in(checked_text(bytes, name));
-  std::string        line;
-  for (std::size_t n = 1; std::getline(in, line); ++n)
+  for (const auto &[line, where, number] : data_lines(checked_text(bytes, name), name))
     {
-      line = dealii::Utilities::trim(line.substr(0, line.find('#')));
-      if (line.empty())
-        continue;
       const std::vector<std::string> cells = split_list(line, ',');
-      const std::string              where = name + ":" + std::to_string(n);
       if (columns.empty())
         columns = cells;
       else
-        rows.push_back({n, cells});
+        rows.push_back({number, cells});
       require(cells.size() == columns.size(), where,
               "the row has " + std::to_string(cells.size()) + " cells, the first line "
                 + std::to_string(columns.size()) + " names",

@@ -100,13 +100,14 @@ declare_law(ContactPairParameters &parameters, const ParameterSection &section)
     }
   parameters.kind
     = &contact_law(section.choice("Law", parameters.kind->name, names, descriptions + "."));
+  const auto &used = parameters.kind->entries;
   for (const ContactLaw &law : registered_contact_laws())
     {
       const bool is_chosen = &law == parameters.kind;
       if (law.declare != nullptr)
         law.declare(parameters, section, is_chosen);
       for (const std::string &entry : law.entries)
-        if (!is_chosen && section.is_set(entry))
+        if (section.is_set(entry) && std::find(used.begin(), used.end(), entry) == used.end())
           section.error(entry, "the law " + parameters.kind->name + " does not use it",
                         "remove it, or set Law = " + law.name);
     }

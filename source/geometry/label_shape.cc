@@ -7,7 +7,9 @@
 #include <scree/level_set/pieces.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace scree
 {
@@ -41,29 +43,37 @@ signs_of(const LabelImage &image, const LabelPiece &piece, const LabelPlacement 
   return lattice;
 }
 
-/** The area below a level of the cubic interpolant, of parts of a quarter of the spacing. */
-double
-area_below(const Lattice<2> &lattice, const double level)
+/** The areas below three levels of the cubic interpolant, of parts of a quarter of the spacing. */
+std::array<double, 3>
+areas_below(const Lattice<2> &lattice, const std::array<double, 3> &levels)
 {
-  constexpr int n_parts = 4;
-  const double  spacing = lattice.spacing(), near = 1.5 * spacing;
-  double        area = 0.;
+  constexpr int         n_parts = 4;
+  const double          spacing = lattice.spacing(), near = 1.5 * spacing;
+  std::array<double, 3> areas{};
   for (int j = 0; j + 1 < lattice.n_nodes()[1]; ++j)
     for (int i = 0; i + 1 < lattice.n_nodes()[0]; ++i)
       {
         const typename Lattice<2>::Index corner{{lattice.lower()[0] + i, lattice.lower()[1] + j}};
-        const double                     value = lattice(corner) - level;
-        if (value < -near)
-          area += spacing * spacing;
-        if (std::abs(value) > near)
-          continue;
-        Lattice<2> parts({lattice.node(corner), spacing / n_parts, lattice.frame().box}, {{0, 0}},
-                         {{n_parts + 1, n_parts + 1}});
-        for (std::size_t k = 0; k < parts.values().size(); ++k)
-          parts.values()[k] = lattice.value(parts.node(parts.index(k)), 3);
-        area += volume_below(parts, level);
+        std::optional<Lattice<2>>        parts;
+        for (unsigned int l = 0; l < levels.size(); ++l)
+          {
+            const double value = lattice(corner) - levels[l];
+            if (value < -near)
+              areas[l] += spacing * spacing;
+            if (std::abs(value) > near)
+              continue;
+            if (!parts)
+              {
+                parts.emplace(
+                  LatticeFrame<2>{lattice.node(corner), spacing / n_parts, lattice.frame().box},
+                  Lattice<2>::Index{{0, 0}}, Lattice<2>::Index{{n_parts + 1, n_parts + 1}});
+                for (std::size_t k = 0; k < parts->values().size(); ++k)
+                  parts->values()[k] = lattice.value(parts->node(parts->index(k)), 3);
+              }
+            areas[l] += volume_below(*parts, levels[l]);
+          }
       }
-  return area;
+  return areas;
 }
 
 /** Shifts distances so that the area of their cubic interpolant is `area`. */
@@ -73,9 +83,8 @@ keep_area(Lattice<2> &lattice, const double area)
   const double step = 0.1 * lattice.spacing();
   for (unsigned int iteration = 0; iteration < 2; ++iteration)
     {
-      const double excess = area_below(lattice, 0.) - area,
-                   perimeter
-                   = (area_below(lattice, step) - area_below(lattice, -step)) / (2 * step);
+      const auto   areas  = areas_below(lattice, {{-step, 0., step}});
+      const double excess = areas[1] - area, perimeter = (areas[2] - areas[0]) / (2 * step);
       for (double &value : lattice.values())
         value += excess / perimeter;
     }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <sstream>
 
 namespace scree
 {
@@ -48,19 +47,13 @@ std::vector<Point<2>>
 vertices_in(const std::string &text, const std::string &file)
 {
   std::vector<Point<2>> vertices;
-  std::istringstream    in(text);
-  std::string           line;
   bool                  may_have_names = true;
-  for (unsigned int n = 1; std::getline(in, line); ++n)
+  for (const auto &[line, where, number] : data_lines(text, file))
     {
-      line = Utilities::trim(line.substr(0, line.find('#')));
-      if (line.empty())
-        continue;
       Point<2>   vertex;
       const bool is_vertex = parse_value(line, vertex).ok;
       require(is_vertex || (may_have_names && std::isalpha(static_cast<unsigned char>(line[0]))),
-              file + ":" + std::to_string(n), "'" + line + "' is no point",
-              "write x and y, a comma between them");
+              where, "'" + line + "' is no point", "write x and y, a comma between them");
       may_have_names = false;
       if (is_vertex)
         vertices.push_back(vertex);

@@ -125,7 +125,7 @@ read_text_stl(const std::string &bytes, const std::string &name)
   Words                    words(bytes, name);
   std::vector<std::size_t> corners;
   for (std::string word = words.next(); !word.empty(); word = words.next())
-    if (word == "solid" || word == "endsolid")
+    if (word == "solid" || word == "endsolid" || word == "facet")
       words.skip_line();
     else if (word == "vertex")
       {
@@ -143,8 +143,6 @@ read_text_stl(const std::string &bytes, const std::string &name)
         growing.soup.triangles.push_back({{corners[0], corners[1], corners[2]}});
         corners.clear();
       }
-    else if (word == "facet")
-      words.skip_line();
     else if (word != "outer" && word != "loop" && word != "endloop")
       throw UserError(words.where(), "'" + word.substr(0, 40) + "' is no word of an STL file",
                       surface_remedy);

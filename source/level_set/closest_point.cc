@@ -86,7 +86,7 @@ struct Steps
 
   bool           valid;
   Tensor<1, dim> normal, tangential;
-  double         to_contour, residual;
+  double         to_contour = 0., residual = 0.;
 };
 
 constexpr double tangential_tolerance = 1e-8; // spacings

@@ -459,9 +459,8 @@ LinearSolver::solve_iteratively(const Matrix &A, Vector &x, const Vector &b, con
           x = 0;
         }
       result.iterations += control.last_step();
-      if (!is_solved)
-        multigrid.reset();
-      else if (!multigrid->is_worth_keeping(control.last_step(), control.last_value() / norm))
+      if (!is_solved
+          || !multigrid->is_worth_keeping(control.last_step(), control.last_value() / norm))
         multigrid.reset();
     }
   result.relative_residual = relative_residual(A, x, b);

@@ -84,15 +84,20 @@ struct MovingBodies
       step(increment);
   }
 
-  /** The position at the start of the point that all steps moved to x. */
+  /** The position at the start of the point that all steps moved to x, by fixed points. */
   dealii::Point<dim> pulled_back(const dealii::Point<dim> &x) const
   {
     dealii::Point<dim> X = x;
     for (auto step = steps.rbegin(); step != steps.rend(); ++step)
       {
-        const dealii::Point<dim> end = X;
-        for (unsigned int i = 0; i < 100; ++i)
-          X = end - (*step)(X);
+        const dealii::Point<dim> end    = X;
+        double                   change = 1.;
+        for (unsigned int i = 0; i < 100 && change > 1e-15; ++i)
+          {
+            const dealii::Point<dim> next = end - (*step)(X);
+            change                        = next.distance(X);
+            X                             = next;
+          }
       }
     return X;
   }

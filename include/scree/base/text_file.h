@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace scree
 {
@@ -31,4 +32,15 @@ std::string read_text_file(const std::string &path, const std::size_t largest_si
 
 /** The same for what is in memory already; `name` stands for the file in messages. */
 std::string checked_text(const std::string &bytes, const std::string &name);
+
+/** A line of a table. */
+struct DataLine
+{
+  std::string text;   //!< without blanks at its ends
+  std::string where;  //!< NAME:NUMBER, for messages
+  std::size_t number; //!< from 1
+};
+
+/** The lines of a text in which there is something before a #. */
+std::vector<DataLine> data_lines(const std::string &text, const std::string &name);
 } // namespace scree
