@@ -110,10 +110,14 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{
-    parameters.discretization,           parameters.contact.shift, parameters.contact.grid_nodes,
-    parameters.contact.enforcement,      parameters.moving,        parameters.linear_solver,
-    parameters.time_scheme.has_inertia()};
+  const ProblemParameters of_problem{parameters.discretization,
+                                     parameters.contact.shift,
+                                     parameters.contact.grid_nodes,
+                                     parameters.contact.enforcement,
+                                     parameters.moving,
+                                     parameters.linear_solver,
+                                     parameters.time_scheme.has_inertia(),
+                                     parameters.time_scheme.lumps_mass};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }

@@ -92,13 +92,13 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
     , small_cuts(make_small_cut_treatment(space, parameters.discretization.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
-    , mass(!parameters.has_inertia
-             ? nullptr
-             : timed(timings, "mass",
-                     [&]() {
-                       return std::make_shared<const Mass<dim>>(space, bodies, *small_cuts,
-                                                                kinematics->mass_points());
-                     }))
+    , mass(!parameters.has_inertia ? nullptr
+                                   : timed(timings, "mass",
+                                           [&]() {
+                                             return std::make_shared<const Mass<dim>>(
+                                               space, bodies, *small_cuts,
+                                               kinematics->mass_points(), parameters.lumps_mass);
+                                           }))
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
                              return BoundaryTerms<dim>(space, level_set_nodes, quadrature, bodies,

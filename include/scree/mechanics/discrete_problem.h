@@ -20,6 +20,7 @@ struct ProblemParameters
   const MovingGeometryParameters &moving;
   const LinearSolverParameters   &linear_solver;
   bool                            has_inertia = false;
+  bool                            lumps_mass  = false;
 };
 
 /**
