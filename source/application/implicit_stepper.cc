@@ -142,7 +142,7 @@ ImplicitStepper<dim>::attempt()
   if (problem.mass)
     take_motion(u, rates, attempt);
   problem.equilibrium().accept(u, model.state().contact);
-  require_contact_within_reach(problem.contact(), problem.shift(), problem.communicator());
+  require_contact_within_reach(problem.contact(), problem.contact_reach(), problem.communicator());
   if (!model.is_moving())
     {
       report.meetings(problem, parameters.contact, u);

@@ -110,9 +110,14 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
-  const ProblemParameters of_problem{
-    parameters.discretization, parameters.contact.shift, parameters.contact.enforcement,
-    parameters.moving,         parameters.linear_solver, parameters.time_scheme.has_inertia()};
+  const ProblemParameters of_problem{parameters.discretization,
+                                     parameters.contact.shift,
+                                     parameters.contact.grid_nodes,
+                                     parameters.contact.enforcement,
+                                     parameters.moving,
+                                     parameters.linear_solver,
+                                     parameters.time_scheme.has_inertia(),
+                                     parameters.time_scheme.lumps_mass};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }
@@ -310,7 +315,8 @@ Model<dim>::start_step()
   if (problem().mass)
     {
       fit_rates();
-      const Rates &rates = current.predictor.rates;
+      Rates &rates = current.predictor.rates;
+      remove_approach(problem(), current.contact, rates);
       problem().equilibrium().set_kinetic_energy(
         problem().mass->kinetic_energy(current.displacement, rates));
       problem().equilibrium().set_inertia(

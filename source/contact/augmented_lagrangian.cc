@@ -1,6 +1,7 @@
 #include <scree/contact/augmented_lagrangian.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace scree
@@ -15,8 +16,11 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const std::vector<ContactStiffness
     , normal(points, communicator)
     , tangential(normal)
 {
+  constexpr double smallest_part = 0.05; // of the face of a cell
   for (const ContactPoint<dim> &point : points)
-    this->points.push_back({point.normal, point.initial_gap, point.cell_size});
+    this->points.push_back(
+      {point.normal, point.initial_gap, point.cell_size,
+       !point.is_node || point.weight >= smallest_part * std::pow(point.cell_size, dim - 1)});
 }
 
 template <int dim>
@@ -26,12 +30,12 @@ AugmentedLagrangian<dim>::start_step(const ContactHistory<dim> &history)
   std::vector<dealii::Tensor<1, dim>> tractions;
   for (unsigned int p = 0; p < points.size(); ++p)
     {
-      Point       &point   = points[p];
-      const double gap     = point.initial_gap + point.normal * history.jump[p];
-      point.has_multiplier = history.pressure[p] != 0.;
-      point.is_closed_at_start
-        = point.has_multiplier || gap <= parameters.largest_gap * point.cell_size;
-      point.has_opened = false;
+      Point       &point       = points[p];
+      const double gap         = point.initial_gap + point.normal * history.jump[p];
+      const bool   is_pressed  = history.pressure[p] != 0.;
+      point.has_multiplier     = is_pressed && point.may_have_multiplier;
+      point.is_closed_at_start = is_pressed || gap <= parameters.largest_gap * point.cell_size;
+      point.has_opened         = false;
       tractions.push_back(history.pressure[p] * point.normal + history.tau[p]);
     }
   const auto of_traction = parts(tractions);
@@ -64,7 +68,7 @@ AugmentedLagrangian<dim>::choose_points(const std::vector<ContactResponse<dim>> 
 {
   for (unsigned int p = 0; p < points.size(); ++p)
     if (responses[p].pressure != 0.)
-      points[p].has_multiplier = true;
+      points[p].has_multiplier = points[p].may_have_multiplier;
     else if (points[p].has_multiplier && !points[p].has_opened)
       {
         points[p].has_multiplier = false;

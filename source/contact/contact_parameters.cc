@@ -163,6 +163,7 @@ ContactParameters::declare(ParameterSection &section, const std::vector<std::str
   section.entry("Shift", shift, dealii::Patterns::Double(0.5, 100.),
                 "Contact is looked for where both bodies are nearer than this, in finest cells; it "
                 "must exceed half the approach of the surfaces.");
+  grid_nodes.declare(section);
   enforcement.declare(section);
   std::vector<ParameterSection> subsections;
   bool                          all_known = true;

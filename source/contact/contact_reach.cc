@@ -13,18 +13,27 @@ namespace scree
 {
 template <int dim>
 void
-require_contact_within_reach(const ContactPoints<dim> &contact, const double shift,
+require_contact_within_reach(const ContactPoints<dim> &contact, const double reach,
                              const MPI_Comm communicator)
 {
-  const double largest_gap = 0.8 * 2. * shift;
+  const double largest_gap = 0.8 * reach;
+  bool         at_nodes    = false;
   unsigned int n_beyond    = 0;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
-    n_beyond += contact.points()[i].initial_gap > largest_gap && contact.gap(i) < 0.
-                && contact.responses()[i].pressure > 0.;
-  require(dealii::Utilities::MPI::sum(n_beyond, communicator) == 0, "Contact/Shift",
+    {
+      at_nodes = at_nodes || contact.points()[i].is_node;
+      n_beyond += contact.points()[i].initial_gap > largest_gap && contact.gap(i) < 0.
+                  && contact.responses()[i].pressure > 0.;
+    }
+  at_nodes = dealii::Utilities::MPI::max(at_nodes ? 1 : 0, communicator) == 1;
+  require(dealii::Utilities::MPI::sum(n_beyond, communicator) == 0,
+          at_nodes ? "Contact/Surface" : "Contact/Shift",
           "bodies touch where they were farther apart than " + short_number(largest_gap)
-            + " at the start, which is where the contact surface ends",
-          "raise Contact/Shift");
+            + " at the start, "
+            + (at_nodes ? "and may have met where they share no nodes"
+                        : "which is where the contact surface ends"),
+          at_nodes ? "take more steps on a moving geometry, or set Contact/Surface = level sets"
+                   : "raise Contact/Shift");
 }
 
 template <int dim>

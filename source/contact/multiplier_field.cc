@@ -35,6 +35,18 @@ key_of(const ContactPoint<dim> &point, const dealii::Point<dim> &corner, const u
     key[3 + d] = static_cast<std::int64_t>(corner[d]) + ((vertex >> d) & 1);
   return key;
 }
+
+/** Of the one node of a contact point that is a node of the grid itself. */
+template <int dim>
+NodeKey<dim>
+key_of_own(const ContactPoint<dim> &point, const unsigned int rank, const unsigned int number)
+{
+  constexpr std::int64_t no_direction = -1;
+  NodeKey<dim>           key{point.pair, 0, no_direction};
+  key[3] = rank;
+  key[4] = number;
+  return key;
+}
 } // namespace
 
 template <int dim>
@@ -42,9 +54,19 @@ MultiplierField<dim>::MultiplierField(const std::vector<ContactPoint<dim>> &poin
                                       const MPI_Comm                        communicator)
     : communicator(communicator)
 {
+  const unsigned int        rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   std::vector<NodeKey<dim>> keys;
-  for (const ContactPoint<dim> &point : points)
+  for (unsigned int p = 0; p < points.size(); ++p)
     {
+      const ContactPoint<dim> &point = points[p];
+      weights.push_back(point.weight);
+      if (point.is_node)
+        {
+          keys.insert(keys.end(), n_corners, key_of_own(point, rank, p));
+          supports.emplace_back();
+          supports.back().values[0] = 1.;
+          continue;
+        }
       dealii::Point<dim> corner, place;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -61,7 +83,6 @@ MultiplierField<dim>::MultiplierField(const std::vector<ContactPoint<dim>> &poin
             support.values[v] *= (v >> d) & 1 ? place[d] : 1. - place[d];
         }
       supports.push_back(support);
-      weights.push_back(point.weight);
     }
   std::vector<NodeKey<dim>> all_keys;
   for (const auto &of_process : dealii::Utilities::MPI::all_gather(communicator, keys))

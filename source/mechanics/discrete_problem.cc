@@ -1,3 +1,4 @@
+#include <scree/contact/grid_node_contact.h>
 #include <scree/contact/level_set_surface.h>
 #include <scree/contact/make_enforcement.h>
 #include <scree/mechanics/cut_cell_gauss.h>
@@ -33,12 +34,15 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
   typename Bulk<dim>::Vector ratios;
   if (problem.is_moving())
     ratios = problem.bulk.nodal_secant_ratios();
+  const auto *u_n  = problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr;
+  const auto *flow = problem.is_moving() ? &ratios : nullptr;
   ContactPoints<dim> contact(
     problem.bodies, problem.pairs,
-    level_set_surface(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
-                      problem.shift(), prediction,
-                      problem.is_moving() ? &problem.kinematics->start_displacement() : nullptr,
-                      problem.is_moving() ? &ratios : nullptr));
+    problem.parameters.grid_nodes.is_chosen
+      ? grid_node_contact(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
+                          problem.parameters.grid_nodes, prediction, u_n, flow)
+      : level_set_surface(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
+                          problem.shift(), prediction, u_n, flow));
   contact.set_enforcement(make_enforcement<dim>(problem.parameters.enforcement, contact.points(),
                                                 contact.enforcement().stiffness(),
                                                 problem.communicator()));
@@ -88,13 +92,13 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
     , small_cuts(make_small_cut_treatment(space, parameters.discretization.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
-    , mass(!parameters.has_inertia
-             ? nullptr
-             : timed(timings, "mass",
-                     [&]() {
-                       return std::make_shared<const Mass<dim>>(space, bodies, *small_cuts,
-                                                                kinematics->mass_points());
-                     }))
+    , mass(!parameters.has_inertia ? nullptr
+                                   : timed(timings, "mass",
+                                           [&]() {
+                                             return std::make_shared<const Mass<dim>>(
+                                               space, bodies, *small_cuts,
+                                               kinematics->mass_points(), parameters.lumps_mass);
+                                           }))
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
                              return BoundaryTerms<dim>(space, level_set_nodes, quadrature, bodies,

@@ -33,18 +33,34 @@ struct Restricted
   const Operator                      &whole;
   const std::function<void(Vector &)> &set_zero;
 };
+
+/** Puts the row sums of a matrix on its diagonal; zero where there is hardly any mass. */
+template <typename Matrix>
+void
+lump(Matrix &matrix, const dealii::IndexSet &owned, const MPI_Comm communicator)
+{
+  dealii::TrilinosWrappers::MPI::Vector ones(owned, communicator), sums(ones);
+  ones = 1.;
+  matrix.vmult(sums, ones);
+  matrix                  = 0.;
+  const double negligible = 1e-10 * sums.linfty_norm();
+  for (const DofIndex index : owned)
+    matrix.set(index, index, sums(index) > negligible ? sums(index) : 0.);
+  matrix.compress(dealii::VectorOperation::insert);
+}
 } // namespace
 
 template <int dim>
 Mass<dim>::Mass(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
-                const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> points)
+                const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> points,
+                const bool is_lumped)
     : space(space)
     , bodies(bodies)
     , mass_points(std::move(points))
     , rigid_masses(space, bodies)
 {
   require_densities();
-  set_up_matrix(small_cuts);
+  set_up_matrix(small_cuts, is_lumped);
 }
 
 template <int dim>
@@ -59,7 +75,7 @@ Mass<dim>::require_densities() const
 
 template <int dim>
 void
-Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts)
+Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is_lumped)
 {
   const MPI_Comm                     communicator = space.grid.communicator();
   std::vector<std::vector<DofIndex>> couplings    = small_cuts.couplings();
@@ -77,15 +93,25 @@ Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts)
   const auto matrix = std::make_shared<Matrix>();
   matrix->reinit(space.owned(), space.owned(), pattern, communicator, true);
   add_points(*matrix);
+  if (!is_lumped)
+    add_jumps(small_cuts, *matrix);
+  matrix->compress(dealii::VectorOperation::add);
+  if (is_lumped)
+    lump(*matrix, space.owned(), communicator);
+  mass_matrix = matrix;
+}
+
+template <int dim>
+void
+Mass<dim>::add_jumps(const SmallCutTreatment<dim> &small_cuts, Matrix &matrix) const
+{
   // gamma rho h^2 instead of gamma E: h of the cells by the ratios.
   CutStiffness stiffness;
   for (const auto &body : bodies)
     stiffness.of_bodies.push_back(body.is_rigid() ? 0. : body.density);
   for (unsigned int a = 0; a < space.cells().size(); ++a)
     stiffness.ratios.push_back(std::pow(space.cell_size(a), 2));
-  small_cuts.add_to_matrix(stiffness, *matrix);
-  matrix->compress(dealii::VectorOperation::add);
-  mass_matrix = matrix;
+  small_cuts.add_to_matrix(stiffness, matrix);
 }
 
 template <int dim>
@@ -157,14 +183,14 @@ typename Mass<dim>::Vector
 Mass<dim>::solve(const Vector &right_side, const std::function<void(Vector &)> &set_zero) const
 {
   Vector result(space.owned(), space.grid.communicator()), forces(right_side);
-  for (unsigned int i = 0; i < space.n_trailing(); ++i)
-    if (const DofIndex row = space.n_dofs() - space.n_trailing() + i; space.owned().is_element(row))
+  for (const DofIndex row : space.owned())
+    if (mass_matrix->diag_element(row) == 0.)
       forces(row) = 0.;
   forces.compress(dealii::VectorOperation::insert);
   const double norm = forces.l2_norm();
   if (norm == 0.)
     return result;
-  // Nodes without mass: their rows are zero, and so are the forces.
+  // Of the rows without mass.
   constexpr double                           no_mass = 1e-200;
   dealii::TrilinosWrappers::PreconditionSSOR preconditioner;
   preconditioner.initialize(*mass_matrix, {1., no_mass, 0});

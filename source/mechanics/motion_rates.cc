@@ -47,11 +47,54 @@ rates_at_end(const DiscreteProblem<dim> &problem, const TimeScheme<dim> &scheme,
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                              \
-  template void  set_prescribed_rates(const Equilibrium<dim> &, const double, const double, \
-                                      const Rates *, Rates &);                              \
-  template Rates rates_at_end(const DiscreteProblem<dim> &, const TimeScheme<dim> &,        \
-                              const State<dim> &, const Equilibrium<dim>::Vector &, const double);
+template <int dim>
+void
+remove_approach(const DiscreteProblem<dim> &problem, const ContactHistory<dim> &history,
+                Rates &rates)
+{
+  using Vector                          = typename Equilibrium<dim>::Vector;
+  const Equilibrium<dim>   &equilibrium = problem.equilibrium();
+  const ContactPoints<dim> &contact     = problem.contact();
+  const SparseRows          rows        = contact.jump_operator().rows();
+  Vector                    masses(rates.velocity), change(rates.velocity);
+  change = 1.;
+  problem.mass->matrix()->vmult(masses, change);
+  const double negligible = 1e-8 * masses.linfty_norm(); // where cells have no points
+  change                  = 0.;
+  const Vector v = equilibrium.with_ghosts(rates.velocity), m = equilibrium.with_ghosts(masses);
+  for (unsigned int p = 0; p < contact.points().size(); ++p)
+    {
+      const ContactPoint<dim> &point = contact.points()[p];
+      const std::size_t        first = rows.begin[dim * p];
+      if (!point.is_node || rows.begin[dim * p + 1] != first + 2
+          || (point.initial_gap > 0. && history.pressure[p] == 0.))
+        continue;
+      // The nodes of both sides, with the factors -1 and 1.
+      double approach = 0.;
+      for (unsigned int i = 0; i < 2 * dim; ++i)
+        approach -= rows.values[first + i] * point.normal[i / 2] * v(rows.columns[first + i]);
+      const double sum = m(rows.columns[first]) + m(rows.columns[first + 1]);
+      if (approach <= 0. || sum <= negligible)
+        continue;
+      for (unsigned int i = 0; i < 2 * dim; ++i)
+        {
+          const double of_other = m(rows.columns[first + (i % 2 == 0 ? i + 1 : i - 1)]);
+          change.add({static_cast<DofIndex>(rows.columns[first + i])},
+                     std::vector<double>{rows.values[first + i] * approach * of_other / sum
+                                         * point.normal[i / 2]});
+        }
+    }
+  change.compress(dealii::VectorOperation::add);
+  equilibrium.strong_supports().set_zero(change);
+  rates.velocity += change;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                     \
+  template void  set_prescribed_rates(const Equilibrium<dim> &, const double, const double,        \
+                                      const Rates *, Rates &);                                     \
+  template Rates rates_at_end(const DiscreteProblem<dim> &, const TimeScheme<dim> &,               \
+                              const State<dim> &, const Equilibrium<dim>::Vector &, const double); \
+  template void remove_approach(const DiscreteProblem<dim> &, const ContactHistory<dim> &, Rates &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -71,6 +71,12 @@ TimeSchemeParameters::declare(const ParameterSection &section)
   section.entry("FLIP share", flip_share, dealii::Patterns::Double(0., 1.),
                 "On a moving geometry material points get the increment of the velocity field (1), "
                 "the velocity (0), which smooths it, or a mixture; no dimension.");
+  const std::string consistent = "consistent", lumped = "lumped";
+  lumps_mass = section.choice("Mass", lumps_mass ? lumped : consistent, {consistent, lumped},
+                              "Mass matrix of deformable bodies. consistent: sum of m N N^T over "
+                              "points, steadied in small cuts; lumped: its row sums, as in the "
+                              "material point method, of degree 1.")
+               == lumped;
   if (scheme == "Newmark" && 2. * newmark_beta < newmark_gamma)
     section.error("Newmark beta", "is less than half of Newmark gamma: the method is not stable",
                   "set at least half of Newmark gamma");

@@ -218,7 +218,7 @@ RunReport<dim>::meetings(const DiscreteProblem<dim> &problem, const ContactParam
                          const typename Equilibrium<dim>::Vector &u)
 {
   for (const auto &[a, b] : pairs_that_may_have_met(
-         problem.bodies, problem.contact(), parameters, 2. * problem.shift(),
+         problem.bodies, problem.contact(), parameters, problem.contact_reach(),
          problem.equilibrium().largest_displacements(u), problem.communicator()))
     if (run_log.warnings.is_new(Warning::may_have_met, a, b))
       run_log.log.line("Warning: " + problem.bodies[a].name + " and " + problem.bodies[b].name

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/grid_node_contact.h>
 #include <scree/contact/level_set_surface.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/linear_prediction.h>
@@ -61,8 +62,11 @@ struct EquilibriumModel
       , bulk(kinematics.bulk())
       , boundary_terms(*cut.space, *cut.level_set_nodes, quadrature, cut.bodies, kinematics)
       , contact(cut.bodies, contact_pairs(),
-                level_set_surface(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
-                                  input.contact.shift * cut.grid.finest_size()))
+                input.contact.grid_nodes.is_chosen
+                  ? grid_node_contact(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                      input.contact.grid_nodes)
+                  : level_set_surface(*cut.space, *cut.level_set_nodes, cut.bodies, contact_pairs(),
+                                      input.contact.shift * cut.grid.finest_size()))
       , mass(!has_inertia ? nullptr
                           : std::make_shared<const Mass<dim>>(*cut.space, cut.bodies, *small_cuts,
                                                               kinematics.mass_points()))
@@ -163,9 +167,10 @@ struct EquilibriumModel
 
 /** Section Contact with one law for all pairs. */
 inline std::string
-contact_text(const std::string &law)
+contact_text(const std::string &law, const std::string &surface = "level sets")
 {
-  return "subsection Contact\n set Names = all\n subsection all\n  " + law + "\n end\nend\n";
+  return "subsection Contact\n set Surface = " + surface + "\n set Names = all\n subsection all\n  "
+         + law + "\n end\nend\n";
 }
 
 /** Section Solver. */

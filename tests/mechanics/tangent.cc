@@ -18,14 +18,14 @@ const char *const friction = "set Law = coulomb\nset Friction coefficient = 0.4"
 /** A half space held below and a disc held above that overlaps with it. */
 std::string
 overlapping_bodies(const unsigned int degree, const std::string &refinement,
-                   const std::string &law = friction)
+                   const std::string &law = friction, const std::string &surface = "level sets")
 {
   return grid_text("-1, -1", "1, 1", "4, 4", 3, refinement) + degree_text(degree)
          + bodies_text(
            {{"block",
              half_space_text("0, 0.013", "0.05, 1") + conditions_text({{"base", "set On = y-"}})},
             {"disc", ball_text("0, 1.2", 1.2) + conditions_text({{"top", "set On = y+"}})}})
-         + contact_text(law);
+         + contact_text(law, surface);
 }
 
 /** u with random entries that satisfies the constraints; zero where displacements are held. */
@@ -111,14 +111,14 @@ TEST(Tangent, EqualsFiniteDifferences2D)
 }
 
 std::string
-overlapping_bodies_3d(const unsigned int degree)
+overlapping_bodies_3d(const unsigned int degree, const std::string &surface = "level sets")
 {
   return grid_text("-1, -1, -1", "1, 1, 1", "2, 2, 2", 1) + degree_text(degree)
          + bodies_text({{"block", half_space_text("0, 0, 0.013", "0.05, 0.1, 1")
                                     + conditions_text({{"base", "set On = z-"}})},
                         {"cap", half_space_text("0, 0, -0.007", "0.1, 0.05, -1")
                                   + conditions_text({{"top", "set On = z+"}})}})
-         + contact_text(friction);
+         + contact_text(friction, surface);
 }
 
 TEST(Tangent, EqualsFiniteDifferences3D)
@@ -128,6 +128,17 @@ TEST(Tangent, EqualsFiniteDifferences3D)
       EquilibriumModel<3> model(overlapping_bodies_3d(degree));
       compare_tangent(model, 0.05, 1e-7);
     }
+}
+
+TEST(Tangent, EqualsFiniteDifferencesAtGridNodes)
+{
+  for (const std::string &refinement : {std::string(), graded_text(1)})
+    {
+      EquilibriumModel<2> model(overlapping_bodies(1, refinement, friction, "grid nodes"));
+      compare_tangent(model, 0.02, 1e-8);
+    }
+  EquilibriumModel<3> model(overlapping_bodies_3d(1, "grid nodes"));
+  compare_tangent(model, 0.05, 1e-7);
 }
 
 /** The same from a state without history. */

@@ -227,6 +227,48 @@ TEST(Inertia, FitsKeepMomentum)
   EXPECT_NEAR(body.momentum().angular[2], angular, 1e-12);
 }
 
+// Lumping keeps the mass, and the momenta of nodes are those of the points.
+TEST(Inertia, LumpedMass)
+{
+  const FreeBody<2> body(ball_text("0.02, 0.01", 0.63));
+  const auto       &model = body.model;
+  const auto       &space = *model.cut.space;
+  const Mass<2> lumped(space, model.cut.bodies, *model.small_cuts, model.kinematics.mass_points(),
+                       true);
+  const auto   &points = lumped.points();
+  Mass<2>::Vectors values;
+  double           mass = 0., angular = 0.;
+  Tensor<1, 2>     momentum;
+  for (std::size_t p = 0; p < points.masses.size(); ++p)
+    {
+      const auto &x = points.positions[p];
+      values.push_back(Tensor<1, 2>({std::sin(7. * x[0] + 3. * x[1]), std::cos(9. * x[1])}));
+      mass += points.masses[p];
+      momentum += points.masses[p] * values[p];
+      angular += points.masses[p] * (x[0] * values[p][1] - x[1] * values[p][0]);
+    }
+  const auto v = lumped.fit(values);
+  auto       m = v, mv = v, ones = v;
+  ones = 1.;
+  lumped.matrix()->vmult(m, ones);
+  lumped.matrix()->vmult(mv, v);
+  EXPECT_NEAR(m.l1_norm(), 2. * mass, 1e-12);
+  EXPECT_LE(m.l1_norm(), m.mean_value() * m.size() * (1. + 1e-12)); // none is negative
+  std::vector<bool> is_counted(space.n_dofs());
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      if (const DofIndex node = space.nodes(a)[i]; !is_counted[node])
+        {
+          const auto x     = space.position(a, space.basis.node(i));
+          is_counted[node] = true;
+          angular -= x[0] * mv(node + 1) - x[1] * mv(node);
+          momentum -= Tensor<1, 2>({mv(node), mv(node + 1)});
+          EXPECT_NEAR(m(node), lumped.matrix()->diag_element(node), 1e-15);
+        }
+  EXPECT_NEAR(momentum.norm(), 0., 1e-12);
+  EXPECT_NEAR(angular, 0., 1e-12);
+}
+
 // v + w x (x - c), of deformable bodies and of rigid ones alike.
 TEST(Inertia, VelocityFieldOfSpinningBodies)
 {

@@ -21,7 +21,8 @@ namespace scree
  * between are of higher order in h. Points that close in a step have no lambda_t yet: what slid
  * before they closed is not to be undone. A step starts with the tractions at the end of the last
  * one. If an update does not make the means four times smaller, the penalties of the rest of the
- * step grow. Nothing is stored.
+ * step grow. Nothing is stored. Grid nodes with less than a twentieth of the area of a cell's face
+ * keep their penalty and have no multiplier, which it would hardly move.
  */
 template <int dim>
 class AugmentedLagrangian : public Enforcement<dim>
@@ -61,7 +62,8 @@ private:
   struct Point
   {
     dealii::Tensor<1, dim> normal;
-    double                 initial_gap, cell_size;    //!< [L]
+    double                 initial_gap, cell_size; //!< [L]
+    bool                   may_have_multiplier;
     bool                   is_closed_at_start = true; //!< of the step: has a lambda_t
     bool                   has_multiplier     = false;
     bool                   has_opened         = false; //!< in this step, after it had one

@@ -2,6 +2,7 @@
 
 #include <scree/contact/contact_law.h>
 #include <scree/contact/enforcement_parameters.h>
+#include <scree/contact/grid_node_parameters.h>
 
 #include <limits>
 #include <string>
@@ -41,6 +42,7 @@ struct ContactParameters
 {
   std::vector<ContactPairParameters> laws;
   double                             shift = 4.; //!< largest phi on the contact surface, in h
+  GridNodeParameters                 grid_nodes;
   EnforcementParameters              enforcement;
 
   void declare(ParameterSection &section, const std::vector<std::string> &body_names);

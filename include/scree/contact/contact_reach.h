@@ -8,14 +8,13 @@
 namespace scree
 {
 /**
- * Checks that contact stays on the contact surface, which ends where the gap was 2 shift at the
- * start. Collective.
+ * Checks that contact stays where contact points are. Collective.
  *
- * @param shift the bound on phi on the contact surface [L]
+ * @param reach largest gap at the start for which bodies have contact points everywhere [L]
  * @throws UserError if points near its end carry pressure
  */
 template <int dim>
-void require_contact_within_reach(const ContactPoints<dim> &contact, const double shift,
+void require_contact_within_reach(const ContactPoints<dim> &contact, const double reach,
                                   const MPI_Comm communicator);
 
 /**

@@ -26,7 +26,7 @@ enum class NormalOf
   body_b
 };
 
-/** A quadrature point of the intermediate surface between two bodies. */
+/** A point of contact between two bodies: on the surface between them, or a node of the grid. */
 template <int dim>
 struct ContactPoint
 {
@@ -44,7 +44,8 @@ struct ContactPoint
   NormalOf               normal_of = NormalOf::both; //!< known from exact distances
   double                 stiffness_ratio = 1.;       //!< E'/E of bodies that flow
   /** x_a and x_b, where the displacements of a and b are taken. */
-  std::array<dealii::Point<dim>, 2> feet = {};
+  std::array<dealii::Point<dim>, 2> feet    = {};
+  bool                              is_node = false; //!< of the grid, which both bodies reach
 };
 
 /**

@@ -15,6 +15,7 @@ namespace scree
  *
  * Its space has about as many functions as displacements have jumps on the surface. One multiplier
  * at each quadrature point would be too many: pressures would oscillate from point to point.
+ * Points that are nodes of the grid have one Lambda each.
  */
 template <int dim>
 class MultiplierField
@@ -51,7 +52,7 @@ private:
   struct Support
   {
     std::array<unsigned int, n_corners> nodes;
-    std::array<double, n_corners>       values;
+    std::array<double, n_corners>       values{};
   };
 
   Value at(const std::vector<Value> &nodal, const Support &support) const;

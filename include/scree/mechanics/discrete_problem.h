@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/contact/grid_node_parameters.h>
 #include <scree/mechanics/equilibrium.h>
 #include <scree/mechanics/step_start.h>
 #include <scree/mechanics/system_solver.h>
@@ -14,10 +15,12 @@ struct ProblemParameters
 {
   const DiscretizationParameters &discretization;
   double                          contact_shift; //!< bound on phi on the contact surface, in h
+  const GridNodeParameters       &grid_nodes;    //!< instead of the contact surface
   const EnforcementParameters    &enforcement;
   const MovingGeometryParameters &moving;
   const LinearSolverParameters   &linear_solver;
   bool                            has_inertia = false;
+  bool                            lumps_mass  = false;
 };
 
 /**
@@ -68,6 +71,13 @@ public:
   double shift() const
   {
     return parameters.contact_shift * grid.finest_size();
+  }
+
+  /** Bodies with larger gaps at the start of a step need not have contact points [L]. */
+  double contact_reach() const
+  {
+    return parameters.grid_nodes.is_chosen ? GridNodeParameters::reach(grid.finest_size())
+                                           : 2. * shift();
   }
 
   MPI_Comm communicator() const

@@ -19,6 +19,10 @@ namespace scree
  * with the jumps s_h of the treatment of small cuts, so that M is well conditioned however cells
  * are cut. Linear fields have no jumps: what is fitted to the points keeps their linear and angular
  * momentum. Rigid bodies have RigidMasses instead of rows of M.
+ *
+ * A lumped M has the row sums of the first term on its diagonal. What is fitted then is
+ * v_i = sum_p m_p v_p N_i(x_p)/M_i, smoother than v_p: M v still has the linear and angular
+ * momentum of the points, but v(x_p) has only the linear one.
  */
 template <int dim>
 class Mass
@@ -28,9 +32,11 @@ public:
   using Matrix  = dealii::TrilinosWrappers::SparseMatrix;
   using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-  /** @throws UserError if a deformable or a free rigid body has no density (collective) */
+  /** Consistent or lumped. @throws UserError if a deformable or a free rigid body has no density
+   * (collective) */
   Mass(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
-       const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> mass_points);
+       const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> mass_points,
+       const bool is_lumped = false);
 
   const MassPoints<dim> &points() const
   {
@@ -55,7 +61,7 @@ public:
   void add_weight(Vector &loads, const double time) const;
 
   /**
-   * v with M v = f at the owned unknowns, zero where f and M are (collective).
+   * v with M v = f at the owned unknowns, zero where there is no mass (collective).
    *
    * @param set_zero where v is zero and the equations do not hold; null: nowhere
    */
@@ -103,7 +109,9 @@ public:
   RigidPose<dim> pose(const typename RigidMasses<dim>::OfBody &body, const Vector &ghosted) const;
 
 private:
-  void set_up_matrix(const SmallCutTreatment<dim> &small_cuts);
+  void set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is_lumped);
+  /** The jumps of small cuts. */
+  void add_jumps(const SmallCutTreatment<dim> &small_cuts, Matrix &matrix) const;
   void add_points(Matrix &matrix) const;
   void require_densities() const;
 

@@ -14,6 +14,7 @@ struct TimeSchemeParameters
   double      newmark_gamma   = 0.5;
   double      spectral_radius = 0.8; //!< of generalized alpha, at infinite frequency
   double      flip_share      = 1.;  //!< 1: points get increments of the velocity; 0: the velocity
+  bool        lumps_mass      = false;
 
   bool has_inertia() const
   {
