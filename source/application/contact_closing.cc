@@ -150,7 +150,7 @@ ContactClosing<dim>::settle()
     return;
   std::optional<State<dim>> before; // the first move
   unsigned int              n_moves = 0;
-  for (; n_moves < max_moves; ++n_moves)
+  for (; n_moves < max_moves && !stepper.is_interrupted(); ++n_moves)
     {
       Equilibrium<dim>          &equilibrium = model.problem().equilibrium();
       const ContactHistory<dim> &history     = model.state().contact;

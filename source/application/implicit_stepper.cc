@@ -1,4 +1,5 @@
 #include <scree/application/implicit_stepper.h>
+#include <scree/base/interruption.h>
 #include <scree/contact/contact_reach.h>
 #include <scree/mechanics/balance_checks.h>
 #include <scree/mechanics/existence.h>
@@ -24,6 +25,7 @@ ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
     , model(model)
     , run_log(run_log)
     , closing(step_control, model, *this, run_log)
+    , relaxation(step_control, model, *this, run_log)
 {
 }
 
@@ -67,7 +69,14 @@ template <int dim>
 bool
 ImplicitStepper<dim>::finds_another_way()
 {
-  require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
+  if (relaxation.is_pending())
+    relaxation.go_back();
+  else
+    {
+      require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
+      if (relaxation.may_help() && relaxation.run())
+        return true;
+    }
   if (!has_turned && !model.problem().equilibrium().free_bodies().empty())
     {
       // The other way, after a fall, see Equilibrium::set_second_attempt().
@@ -115,6 +124,8 @@ ImplicitStepper<dim>::attempt()
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
   Attempt<dim> attempt;
   attempt.record = record;
+  if (result.status == NewtonStatus::interrupted)
+    return given_up(std::move(attempt), Attempt<dim>::Outcome::interrupted);
   if (!result.converged())
     {
       report.failure(record, result, problem.contact(), status_changes, problem.communicator());
@@ -132,8 +143,7 @@ ImplicitStepper<dim>::attempt()
         {
           run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(time)
                            + " is too large: " + reason);
-          attempt.outcome = Attempt<dim>::Outcome::too_large;
-          return attempt;
+          return given_up(std::move(attempt), Attempt<dim>::Outcome::too_large);
         }
     }
   else
@@ -152,7 +162,18 @@ ImplicitStepper<dim>::attempt()
   attempt.outcome = Attempt<dim>::Outcome::accepted;
   has_turned      = false;
   has_slid        = true;
+  relaxation.finish();
   return attempt;
+}
+
+template <int dim>
+Attempt<dim>
+ImplicitStepper<dim>::given_up(Attempt<dim> &&attempt, const typename Attempt<dim>::Outcome outcome)
+{
+  if (relaxation.is_pending())
+    relaxation.go_back();
+  attempt.outcome = outcome;
+  return std::move(attempt);
 }
 
 template <int dim>
@@ -235,7 +256,8 @@ ImplicitStepper<dim>::hooks()
     return std::max(equilibrium.force_scale(),
                     equilibrium.round_off() / parameters.newton.relative_tolerance);
   };
-  hooks.observe = [&](const NewtonIteration &iteration) { observe(iteration); };
+  hooks.is_interrupted = [&]() { return is_interrupted(); };
+  hooks.observe        = [&](const NewtonIteration &iteration) { observe(iteration); };
   set_hooks_of_lagging(hooks);
   return hooks;
 }
@@ -310,14 +332,32 @@ ImplicitStepper<dim>::solve_enforced(const Newton &newton, Vector &u)
 }
 
 template <int dim>
+bool
+ImplicitStepper<dim>::is_interrupted() const
+{
+  return dealii::Utilities::MPI::max(Interruption::signal(), model.problem().communicator()) != 0;
+}
+
+template <int dim>
+Newton
+ImplicitStepper<dim>::newton(const bool is_patient)
+{
+  constexpr unsigned int few        = 40;
+  NewtonParameters       of_attempt = parameters.newton;
+  if (!is_patient)
+    of_attempt.max_iterations = std::min(of_attempt.max_iterations, few);
+  return Newton(of_attempt, hooks());
+}
+
+template <int dim>
 NewtonResult
-ImplicitStepper<dim>::solve(Vector &u)
+ImplicitStepper<dim>::solve(Vector &u, const bool is_patient)
 {
   record = StepRecord();
   model.problem().equilibrium().set_inertia({});
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
-  return solve_enforced(Newton(parameters.newton, hooks()), u);
+  return solve_enforced(newton(is_patient), u);
 }
 
 template <int dim>
@@ -361,7 +401,8 @@ ImplicitStepper<dim>::solve_step(Vector &u)
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   const Vector start(u);
-  const Newton newton(parameters.newton, hooks());
+  const Newton newton
+    = this->newton(!relaxation.may_help() || relaxation.is_pending() || has_turned);
   NewtonResult result = solve_enforced(newton, u);
   if (has_lost_contact(result)) // Friction may hold what sticks at first.
     result = solve_with_sticking(newton, start, u, result);

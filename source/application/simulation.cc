@@ -87,6 +87,8 @@ Simulation<dim>::run()
       ++n_attempts;
       if (!attempt.is_accepted())
         {
+          if (attempt.outcome == Attempt<dim>::Outcome::interrupted)
+            end_if_interrupted();
           try_again(attempt);
           continue;
         }

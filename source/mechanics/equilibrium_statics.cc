@@ -146,7 +146,7 @@ std::optional<double>
 Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &history,
                                         const bool is_settling) const
 {
-  if (free_bodies().empty() || has_inertia())
+  if (free_bodies().empty() || has_inertia() || drag != 0.)
     return {};
   const auto forces = loads_on_free_bodies();
   // A body sums the round-off of its nodes.

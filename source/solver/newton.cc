@@ -361,6 +361,9 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
     return End{
       NewtonStatus::converged_at_round_off,
       "ended at the accuracy of the geometry in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  if (hooks.is_interrupted && hooks.is_interrupted())
+    return End{NewtonStatus::interrupted,
+               "interrupted after %u iterations, |r| = %.3e (tolerance %.3e)"};
   if (iteration.number >= parameters.max_iterations)
     return End{NewtonStatus::max_iterations,
                "not converged in %u iterations, |r| = %.3e (tolerance %.3e)"};

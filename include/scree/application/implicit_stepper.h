@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/application/contact_closing.h>
+#include <scree/application/relaxation.h>
 #include <scree/application/stepper.h>
 #include <scree/contact/status_changes.h>
 #include <scree/mechanics/time_scheme.h>
@@ -36,17 +37,25 @@ public:
   /**
    * Newton's method from u, at the loads and conditions that were set, without inertia; of no step:
    * nothing is said if contact carries nothing in the end.
+   *
+   * @param is_patient whether it goes on beyond 40 iterations
    */
-  NewtonResult solve(Vector &u);
+  NewtonResult solve(Vector &u, const bool is_patient = true);
+
+  /** Whether a signal asked the run to end (collective). */
+  bool is_interrupted() const;
 
   /** The material points at u, and why they moved too far for the geometry; empty: they did not. */
   std::pair<MaterialPoints<dim>, std::string> move_points(const Vector &u) const;
 
 private:
+  /** An attempt with this outcome, after which the state is that of before the step. */
+  Attempt<dim> given_up(Attempt<dim> &&attempt, const typename Attempt<dim>::Outcome outcome);
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
   void         take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
+  Newton       newton(const bool is_patient);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
@@ -64,6 +73,7 @@ private:
   Model<dim>            &model;
   RunLog                &run_log;
   ContactClosing<dim>    closing;
+  Relaxation<dim>        relaxation;
   StepRecord             record;                    //!< that is being solved
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt

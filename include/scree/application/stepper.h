@@ -16,8 +16,9 @@ struct Attempt
   enum class Outcome
   {
     accepted,
-    unsolved, //!< no equilibrium was found
-    too_large //!< one was found, too far for the moving geometry
+    unsolved,  //!< no equilibrium was found
+    too_large, //!< one was found, too far for the moving geometry
+    interrupted
   };
 
   Outcome             outcome = Outcome::unsolved;

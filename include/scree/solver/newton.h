@@ -33,8 +33,7 @@ struct NewtonParameters
 
   LineSearch line_search = LineSearch::work;
 
-  /** The loosest relative tolerance of a linear system, 0 <= . < 1; 0: always as tight as can be.
-   */
+  /** The loosest relative tolerance of a linear system, 0 <= . < 1; 0: as tight as can be. */
   double loosest_linear_tolerance = 1e-3;
 
   /** Reads the entries of the section and records what is not allowed. */
@@ -73,7 +72,8 @@ enum class NewtonStatus
   converged_at_round_off,
   max_iterations,
   diverged,
-  linear_solver_failure
+  linear_solver_failure,
+  interrupted //!< Hooks::is_interrupted
 };
 
 /** The outcome of Newton's method. */
@@ -182,6 +182,9 @@ public:
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
     std::function<double()> reference;
+
+    /** Whether to end unsolved after this iteration (collective); may be empty. */
+    std::function<bool()> is_interrupted;
 
     /** Told of each iteration; may be empty. */
     std::function<void(const NewtonIteration &)> observe;
