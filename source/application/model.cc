@@ -49,7 +49,7 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   if (is_moving())
     require_movable(current.bodies);
   pairs_are_many = is_moving()
-                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, current.bodies,
+                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, freed_bodies(),
                                           parameters.contact);
   pairs = find_pairs();
   require_distinct(current.bodies, pairs);
@@ -114,7 +114,24 @@ Model<dim>::find_pairs() const
       reach = pairs_are_many ? std::min(everywhere, std::max(reach, grid->reach_of_refinement()))
                              : everywhere;
     }
-  return pairs_within(reach, current.bodies, parameters.contact);
+  return pairs_within(reach, freed_bodies(), parameters.contact);
+}
+
+template <int dim>
+std::vector<Body<dim>>
+Model<dim>::freed_bodies() const
+{
+  auto result = current.bodies;
+  for (unsigned int b = 0; b < result.size(); ++b)
+    if (is_ever_free(parameters.stages, result[b].name))
+      {
+        auto motion = parameters.bodies[b].motion;
+        motion.load.fill("0");
+        auto freed = std::make_shared<RigidBody<dim>>(*result[b].rigid);
+        freed->set_motion(motion);
+        result[b].rigid = freed;
+      }
+  return result;
 }
 
 template <int dim>
@@ -405,16 +422,10 @@ Model<dim>::begin_stage(const bool friction_changes, const double step_size)
       }
   if (!is_other)
     return;
-  if (is_moving())
-    {
-      discretise(step_size);
-      start_step();
-      return;
-    }
-  discrete_problem.reset();
+  discrete_problem.reset(); // it refers to the pairs
   pairs = find_pairs();
-  make_problem(step_size);
-  resume_problem();
+  is_moving() ? discretise(step_size) : make_problem(step_size);
+  is_moving() ? start_step() : resume_problem();
 }
 
 template <int dim>

@@ -310,6 +310,18 @@ set_motions(const std::vector<StageParameters<dim>> &stages, const StageRecord<d
 
 template <int dim>
 bool
+is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body)
+{
+  for (const auto &stage : stages)
+    if (const auto change = stage.bodies.find(body); change != stage.bodies.end())
+      for (const std::string &load : change->second.load)
+        if (!load.empty())
+          return true;
+  return false;
+}
+
+template <int dim>
+bool
 set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
              ContactParameters &contact)
 {
@@ -333,6 +345,7 @@ set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<
                           TimeParameters &);                                                      \
   template void set_motions(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &,  \
                             std::vector<BodyParameters<dim>> &);                                  \
+  template bool is_ever_free(const std::vector<StageParameters<dim>> &, const std::string &);     \
   template bool set_friction(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &, \
                              ContactParameters &);
 INSTANTIATE(2)

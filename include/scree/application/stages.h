@@ -100,6 +100,10 @@ template <int dim>
 void set_motions(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
                  std::vector<BodyParameters<dim>> &bodies);
 
+/** Whether a load drives a component of the body in a stage. */
+template <int dim>
+bool is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body);
+
 /** Friction as the stages that have begun have left it. @return whether it is not as it was */
 template <int dim>
 bool set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
