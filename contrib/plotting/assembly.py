@@ -106,7 +106,8 @@ def rose(run, step, contacts):
 
 
 def draw_curves(run):
-    """Writes assembly.png: stress, porosity, coordination and friction over time; nothing for a single step."""
+    """Writes assembly.png: stress, porosity, coordination and friction over time, with lines where a stage ends; nothing for a single
+    step."""
     table = read_table(run.directory / "assembly.csv")
     if len(table["time"]) < 2:
         return None
@@ -120,6 +121,8 @@ def draw_curves(run):
     for panel, (label, values) in zip(panels.ravel(), curves):
         for name, curve in values.items():
             panel.plot(table["time"], curve, marker="o" if len(curve) < 30 else "", markersize=4, label=name)
+        for time in ends_of_stages(table):
+            panel.axvline(time, color="0.6", linewidth=0.8, zorder=0)
         panel.set_ylabel(label)
         panel.ticklabel_format(axis="y", useOffset=False)
         if len(values) > 1:
@@ -128,6 +131,11 @@ def draw_curves(run):
         panel.set_xlabel("time")
     figure.suptitle(run.title)
     return save(figure, run.directory / "assembly.png")
+
+
+def ends_of_stages(table):
+    """Times at which a stage ends and another one follows."""
+    return table["time"][:-1][np.diff(table["stage"]) > 0] if "stage" in table else []
 
 
 def title(run, step, words):

@@ -13,6 +13,29 @@
 
 namespace scree
 {
+namespace
+{
+/** Lets points be undeformed where they are; the equivalent plastic strain, which hardens, stays.
+ */
+template <int dim>
+void
+start_from_here(MaterialPoints<dim> &points)
+{
+  constexpr unsigned int alpha = 6; // see store_internal()
+  for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      points.initial_volume[i]       = points.volume(i);
+      points.initial_spacing[i]      = points.spacing(i);
+      points.reference_position[i]   = points.position[i];
+      points.deformation_gradient[i] = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+      points.stress[i]               = 0.;
+      for (unsigned int k = 0; k < points.n_internal(); ++k)
+        if (k != alpha)
+          points.internal[i * points.n_internal() + k] = 0.;
+    }
+}
+} // namespace
+
 template <int dim>
 Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
                   const MPI_Comm communicator, RunLog &run_log)
@@ -26,7 +49,7 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   if (is_moving())
     require_movable(current.bodies);
   pairs_are_many = is_moving()
-                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, current.bodies,
+                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, freed_bodies(),
                                           parameters.contact);
   pairs = find_pairs();
   require_distinct(current.bodies, pairs);
@@ -91,7 +114,24 @@ Model<dim>::find_pairs() const
       reach = pairs_are_many ? std::min(everywhere, std::max(reach, grid->reach_of_refinement()))
                              : everywhere;
     }
-  return pairs_within(reach, current.bodies, parameters.contact);
+  return pairs_within(reach, freed_bodies(), parameters.contact);
+}
+
+template <int dim>
+std::vector<Body<dim>>
+Model<dim>::freed_bodies() const
+{
+  auto result = current.bodies;
+  for (unsigned int b = 0; b < result.size(); ++b)
+    if (is_ever_free(parameters.stages, result[b].name))
+      {
+        auto motion = parameters.bodies[b].motion;
+        motion.load.fill("0");
+        auto freed = std::make_shared<RigidBody<dim>>(*result[b].rigid);
+        freed->set_motion(motion);
+        result[b].rigid = freed;
+      }
+  return result;
 }
 
 template <int dim>
@@ -110,6 +150,13 @@ Model<dim>::discretise(const double step_size)
       indices.emplace_back(pair.a, pair.b);
     grid->refine(current.bodies, indices);
   }
+  make_problem(step_size);
+}
+
+template <int dim>
+void
+Model<dim>::make_problem(const double step_size)
+{
   const ProblemParameters of_problem{parameters.discretization,
                                      parameters.contact.shift,
                                      parameters.contact.grid_nodes,
@@ -345,10 +392,74 @@ Model<dim>::go_back(State<dim> &&to, const double step_size)
 }
 
 template <int dim>
+void
+Model<dim>::resume_problem()
+{
+  problem().contact().start_step(current.contact);
+  problem().equilibrium().resume(current.time, current.displacement, current.contact,
+                                 current.energies);
+}
+
+template <int dim>
+void
+Model<dim>::take_back(State<dim> &&before, const double step_size)
+{
+  // The problem refers to the bodies, which are as they were, and so are the points.
+  std::swap(before.bodies, current.bodies);
+  std::swap(before.points, current.points);
+  current = std::move(before);
+  if (is_moving())
+    begin_again(step_size);
+  else
+    resume_problem();
+}
+
+template <int dim>
+void
+Model<dim>::begin_stage(const bool friction_changes, const double step_size)
+{
+  bool is_other = friction_changes;
+  for (unsigned int b = 0; b < current.bodies.size(); ++b)
+    if (current.bodies[b].is_rigid())
+      {
+        auto driven = std::make_shared<RigidBody<dim>>(*current.bodies[b].rigid);
+        is_other |= driven->set_motion(parameters.bodies[b].motion);
+        current.bodies[b].rigid = driven;
+      }
+  if (!is_other)
+    return;
+  discrete_problem.reset(); // it refers to the pairs
+  pairs = find_pairs();
+  is_moving() ? discretise(step_size) : make_problem(step_size);
+  is_moving() ? start_step() : resume_problem();
+}
+
+template <int dim>
+double
+Model<dim>::reset(const double step_size)
+{
+  const double stored = problem().equilibrium().energies().stored();
+  start_from_here(current.points);
+  for (auto &body : current.bodies)
+    if (!body.is_rigid())
+      {
+        body.initial_level_set = std::make_shared<const Lattice<dim>>(body.level_set);
+        body.displacement      = {};
+        body.shape             = nullptr;
+      }
+  current.step_end.contact = {};
+  current.predictor        = {};
+  is_reset                 = true;
+  discretise(step_size);
+  start_step();
+  return problem().equilibrium().energies().stored() - stored;
+}
+
+template <int dim>
 GatheredState<dim>
 Model<dim>::gathered() const
 {
-  return gather(current, problem().space, problem().contact(), is_moving());
+  return gather(current, problem().space, problem().contact(), is_moving(), is_reset);
 }
 
 template <int dim>
@@ -363,10 +474,11 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
   if (!is_moving())
     {
       restore_fixed(saved, problem().space, problem().contact(), directory, current);
-      problem().equilibrium().resume(time, current.displacement, current.contact, current.energies);
+      resume_problem();
       return;
     }
   restore_moving(saved, grid->box(), communicator, directory, current);
+  is_reset = saved.is_reset;
   for (unsigned int b = 0; b < current.bodies.size(); ++b)
     if (current.bodies[b].is_rigid())
       place_rigid_body(current.bodies[b], saved.bodies[b].pose, lattice_frame(), lattice_margin());

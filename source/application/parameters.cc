@@ -164,6 +164,39 @@ check_times_of_stages(const Parameters<dim> &p, const ParameterSection &section)
                     "leave it out, or write it as Duration and Steps of a stage");
 }
 
+/** Why the bodies of a run cannot be reset, and the remedy; empty: they can. */
+template <int dim>
+std::pair<std::string, std::string>
+obstacle_to_reset(const Parameters<dim> &p)
+{
+  if (!p.moving.is_moving)
+    return {"on a geometry that stays all is measured from the start of the run",
+            "set Moving geometry/Update = every step"};
+  if (p.time_scheme.has_inertia())
+    return {"bodies that move with inertia would jump", "reset before, in a run without inertia"};
+  for (const auto &law : p.contact.laws)
+    if (law.adjust > 0. || law.kind->glues)
+      return {"the contact law '" + law.name + "' takes gaps from the start of the run",
+              "leave Adjust out: overlap at the start is resolved, and choose no tied law"};
+  for (const auto &body : p.bodies)
+    for (const auto &[name, condition] : body.conditions)
+      if (condition.type != "traction" && condition.type != "pressure")
+        return {"the condition '" + name + "' of the body '" + body.name
+                  + "' is one on displacements from the start of the run",
+                "hold the body by rigid ones"};
+  return {};
+}
+
+template <int dim>
+void
+check_resets(const Parameters<dim> &p, const ParameterSection &section)
+{
+  const auto [what, remedy] = obstacle_to_reset(p);
+  for (const auto &stage : p.stages)
+    if (stage.resets && !what.empty())
+      section.error("", "Reset of stage '" + stage.name + "': " + what, remedy);
+}
+
 /** That probes are in deformable bodies. */
 template <int dim>
 void
@@ -228,9 +261,10 @@ Parameters<dim>::declare(ParameterFile &file)
   time_scheme.declare(time_section);
   ParameterSection stage_section
     = root.subsection("Stages", "Stages of loading, one after the other.");
-  stages = declare_stages(stage_section, bodies, rigid_bodies(*this));
+  stages = declare_stages(stage_section, bodies, rigid_bodies(*this), contact);
   check_times_of_stages(*this, time_section);
-  apply_stages(stages, bodies, time);
+  check_resets(*this, stage_section);
+  set_times(stages, StageRecord<dim>(), time);
   file.check_tables(time.end_time);
 
   ParameterSection solver_section = root.subsection("Solver", "How the equations are solved.");

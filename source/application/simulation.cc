@@ -6,25 +6,24 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_out.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
 
 namespace scree
 {
 namespace
 {
-/** The name of the stage that begins at a time; empty if none does. */
+/** The parameters in the stage that a run has reached. */
 template <int dim>
-std::string
-stage_at(const std::vector<StageParameters<dim>> &stages, const double time)
+Parameters<dim>
+in_stage(const Parameters<dim> &input, const StageRecord<dim> &record)
 {
-  double begin = 0.;
-  for (const auto &stage : stages)
-    {
-      if (begin == time)
-        return stage.name;
-      begin += stage.duration;
-    }
-  return "";
+  Parameters<dim> result = input;
+  set_times(input.stages, record, result.time);
+  set_motions(input.stages, record, result.bodies);
+  set_friction(input.stages, record, result.contact);
+  return result;
 }
 } // namespace
 
@@ -32,16 +31,18 @@ template <int dim>
 Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string &output_directory,
                             const MPI_Comm communicator, const Checkpoint<dim> *checkpoint,
                             const StepperFactory<dim> &stepper_of)
-    : parameters(parameters)
+    : input(parameters)
     , communicator(communicator)
+    , stages(input.stages, checkpoint ? checkpoint->stages : StageRecord<dim>(), communicator)
+    , parameters(in_stage(input, stages.record()))
     , directory(output_directory)
     , run_log{Log(communicator, output_directory + "/log.txt", checkpoint != nullptr), {}, {}}
     , report(run_log)
-    , step_control(parameters.time)
+    , step_control(this->parameters.time)
     , model(this->parameters, step_control.step_size(), communicator, run_log)
     , stepper(stepper_of(this->parameters, step_control, model, run_log))
     , results(directory, model.state().bodies, parameters.output.probes, parameters.output.fields,
-              model.pairs_change())
+              model.pairs_change(), !parameters.stages.empty())
     , saver(this->parameters.output, directory, communicator, run_log,
             [this]() { return collect(); })
 {
@@ -51,6 +52,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
   // Probes outside their bodies are told before anything is computed.
   results.require_probes(*problem.kinematics,
                          problem.equilibrium().with_ghosts(model.state().displacement));
+  stages.require_known(results.quantities(problem.equilibrium(), problem.contact()));
   report_set_up();
   if (checkpoint)
     resume(*checkpoint);
@@ -77,12 +79,13 @@ Simulation<dim>::run()
   if (!step_control.finished())
     require_prescribable();
   stepper->begin();
+  begin_stages();
   while (!step_control.finished())
     {
-      if (const auto stage = stage_at(parameters.stages, step_control.time());
-          n_attempts == 0 && !stage.empty())
-        run_log.log.line("Stage " + stage);
       shorten_step();
+      std::optional<State<dim>> before;
+      if (stages.has_stop())
+        before = model.state();
       Attempt<dim> attempt = stepper->attempt();
       ++n_attempts;
       if (!attempt.is_accepted())
@@ -92,10 +95,59 @@ Simulation<dim>::run()
           try_again(attempt);
           continue;
         }
-      attempt.record.attempts = std::exchange(n_attempts, 0);
+      attempt.record.attempts = n_attempts;
+      attempt.record.stage    = stages.number();
+      if (is_cut(attempt))
+        {
+          model.take_back(std::move(*before), step_control.step_size());
+          continue;
+        }
+      n_attempts = 0;
       finish_step(attempt, wall.wall_time());
     }
   finish();
+}
+
+template <int dim>
+void
+Simulation<dim>::begin_stages()
+{
+  if (parameters.stages.empty() || step_control.n_accepted() > 0)
+    return;
+  run_log.log.line("Stage " + stages.stage().name);
+  const DiscreteProblem<dim> &problem = model.problem();
+  const auto box = box_of_grains(problem.space, problem.level_set_nodes, model.state().bodies,
+                                 problem.quadrature,
+                                 problem.equilibrium().with_ghosts(model.state().displacement));
+  std::vector<double> lengths;
+  for (unsigned int d = 0; d < dim; ++d)
+    lengths.push_back(box.side_length(d));
+  stages.begin_run(lengths);
+}
+
+template <int dim>
+bool
+Simulation<dim>::is_cut(const Attempt<dim> &attempt)
+{
+  const DiscreteProblem<dim> &problem = model.problem();
+  if (model.is_moving()) // Closing contact may have moved it.
+    results.set_discretization(problem.space, problem.level_set_nodes);
+  results.gather_history(attempt.record, problem.equilibrium(), problem.contact(),
+                         problem.quadrature, model.state().displacement);
+  if (parameters.stages.empty())
+    return false;
+  const auto names  = results.quantities(problem.equilibrium(), problem.contact());
+  const auto values = results.quantity_values();
+  std::map<std::string, double> quantities;
+  for (unsigned int i = 0; i < std::min(names.size(), values.size()); ++i)
+    quantities[names[i]] = values[i];
+  const double part = stages.observe(std::move(quantities), attempt.record.time);
+  if (part == 1. || !step_control.cut(part))
+    return false;
+  run_log.log.line("Step " + std::to_string(attempt.record.step) + " to time "
+                   + short_number(attempt.record.time) + " goes beyond " + stages.stage().until
+                   + ": it is taken again, to time " + short_number(step_control.next_time()));
+  return true;
 }
 
 template <int dim>
@@ -116,6 +168,7 @@ void
 Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
   step_control.accept(attempt.record.newton_iterations);
+  const bool stage_ends = ends_stage();
   write_results(attempt.record);
   const double done = step_control.time() / parameters.time.end_time;
   report.step(attempt.record, model.problem().contact(), communicator, done,
@@ -129,8 +182,46 @@ Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
       write_points(attempt.record);
     }
   results.write_history();
+  if (stage_ends && !step_control.finished())
+    begin_next_stage();
   save_if_due();
   end_if_interrupted();
+}
+
+template <int dim>
+bool
+Simulation<dim>::ends_stage()
+{
+  const double time = step_control.time();
+  if (!stages.accept(time))
+    return false;
+  if (stages.is_reached())
+    run_log.log.line("Stage " + stages.stage().name + " reached " + stages.stage().until
+                     + " at time " + short_number(time));
+  else if (stages.has_stop())
+    run_log.log.line("Warning: stage " + stages.stage().name + " ended without reaching "
+                     + stages.stage().until + "; give it a longer Duration");
+  const Equilibrium<dim> &equilibrium = model.problem().equilibrium();
+  stages.begin_next(equilibrium.rigid_states(equilibrium.with_ghosts(model.state().displacement)),
+                    model.state().bodies);
+  set_times(input.stages, stages.record(), parameters.time);
+  step_control.change_times(parameters.time);
+  return true;
+}
+
+template <int dim>
+void
+Simulation<dim>::begin_next_stage()
+{
+  run_log.log.line("Stage " + stages.stage().name);
+  parameters.bodies = input.bodies;
+  set_motions(input.stages, stages.record(), parameters.bodies);
+  const double step_size = step_control.step_size();
+  model.begin_stage(set_friction(input.stages, stages.record(), parameters.contact), step_size);
+  if (stages.stage().resets)
+    run_log.log.line("  the bodies are reset: stored energy changes by "
+                     + short_number(model.reset(step_size)));
+  results.set_discretization(model.problem().space, model.problem().level_set_nodes);
 }
 
 template <int dim>
@@ -158,9 +249,6 @@ Simulation<dim>::write_results(const StepRecord &record)
   const DiscreteProblem<dim> &problem = model.problem();
   const auto                 &u       = model.state().displacement;
   const auto                  ghosted = problem.equilibrium().with_ghosts(u);
-  if (model.is_moving()) // Closing contact may have moved it.
-    results.set_discretization(problem.space, problem.level_set_nodes);
-  results.gather_history(record, problem.equilibrium(), problem.contact(), problem.quadrature, u);
   results.write_probes(record, *problem.kinematics, ghosted);
   bool is_written = true;
   if (is_due(parameters.output.fields_every, record))
@@ -287,6 +375,7 @@ Simulation<dim>::collect() const
   result.program    = std::string(SCREE_VERSION) + " (commit " + SCREE_REVISION + ")";
   result.parameters = parameters.resolved;
   result.steps      = step_control.record();
+  result.stages     = stages.record();
   result.results    = results.record();
   result.warnings   = run_log.warnings;
   result.stepper    = stepper->recorded();

@@ -200,12 +200,22 @@ RigidBody<dim>::RigidBody(const MotionParameters<dim>    &parameters,
       reference_point[d] = parameters.reference_point[d];
   for (unsigned int d = 0; d < dim; ++d)
     radius = std::max(radius, 0.5 * box.side_length(d));
+  set_motion(parameters);
+}
+
+template <int dim>
+bool
+RigidBody<dim>::set_motion(const MotionParameters<dim> &parameters)
+{
+  const auto before = free;
+  values.clear();
   for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
     {
       free[m]                 = !parameters.load[m].empty();
       const std::string &text = free[m] ? parameters.load[m] : parameters.motion[m];
       values.emplace_back(text.empty() ? "0" : text, 1, path);
     }
+  return free != before;
 }
 
 template <int dim>

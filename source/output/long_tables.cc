@@ -7,6 +7,15 @@ namespace scree
 {
 namespace
 {
+std::vector<std::string>
+word_row(const std::vector<double> &values)
+{
+  std::vector<std::string> result;
+  for (const double value : values)
+    result.push_back(CsvTable::word(value));
+  return result;
+}
+
 template <int dim>
 void
 add_vector(const dealii::Tensor<1, dim> &vector, std::vector<std::string> &row)
@@ -25,17 +34,40 @@ add_axial(const dealii::Tensor<1, 3> &vector, std::vector<std::string> &row)
 } // namespace
 
 template <int dim>
-LongTables<dim>::LongTables(const std::string &directory, const std::vector<Body<dim>> &bodies)
+LongTables<dim>::LongTables(const std::string &directory, const std::vector<Body<dim>> &bodies,
+                            const bool has_stages)
     : directory(directory)
     , bodies(bodies)
+    , has_stages(has_stages)
 {
+}
+
+template <int dim>
+std::vector<std::string>
+LongTables<dim>::step_columns() const
+{
+  std::vector<std::string> names = {"step", "time"};
+  if (has_stages)
+    names.push_back("stage");
+  return names;
+}
+
+template <int dim>
+std::vector<double>
+LongTables<dim>::step_values(const StepRecord &record) const
+{
+  std::vector<double> values = {double(record.step), record.time};
+  if (has_stages)
+    values.push_back(record.stage);
+  return values;
 }
 
 template <int dim>
 std::vector<std::string>
 LongTables<dim>::contact_columns() const
 {
-  std::vector<std::string> names = {"step", "time", "pair", "body_a", "body_b"};
+  std::vector<std::string> names = step_columns();
+  names.insert(names.end(), {"pair", "body_a", "body_b"});
   add_vector_names<dim>("force", names);
   add_axial_names<dim>("moment", names);
   for (const std::string name : {"minimum_gap", "max_penetration", "open", "stick", "slip", "area",
@@ -57,7 +89,8 @@ template <int dim>
 std::vector<std::string>
 LongTables<dim>::body_columns() const
 {
-  std::vector<std::string> names = {"step", "time", "body"};
+  std::vector<std::string> names = step_columns();
+  names.push_back("body");
   add_vector_names<dim>("position", names);
   add_vector_names<dim>("displacement", names);
   add_axial_names<dim>("rotation", names);
@@ -75,20 +108,19 @@ template <int dim>
 std::vector<std::string>
 LongTables<dim>::assembly_columns() const
 {
-  std::vector<std::string> names = Assembly<dim>::columns();
-  names.insert(names.begin(), {"step", "time"});
+  std::vector<std::string> names = step_columns(), of_assembly = Assembly<dim>::columns();
+  names.insert(names.end(), of_assembly.begin(), of_assembly.end());
   return names;
 }
 
 template <int dim>
 void
-LongTables<dim>::add_contact(const double step, const double time, const ContactPair &pair,
+LongTables<dim>::add_contact(const StepRecord &record, const ContactPair &pair,
                              const ContactSummary<dim>          &summary,
                              const std::vector<GrainState<dim>> &grains)
 {
-  contact_rows.push_back({CsvTable::word(step), CsvTable::word(time), pair.name,
-                          bodies[pair.a].name, bodies[pair.b].name});
-  auto &row = contact_rows.back();
+  auto &row = contact_rows.emplace_back(word_row(step_values(record)));
+  row.insert(row.end(), {pair.name, bodies[pair.a].name, bodies[pair.b].name});
   add_vector<dim>(summary.force, row);
   add_axial<dim>(summary.moment, row);
   for (const double value :
@@ -107,11 +139,11 @@ LongTables<dim>::add_contact(const double step, const double time, const Contact
 
 template <int dim>
 void
-LongTables<dim>::add_body(const double step, const double time, const std::string &name,
+LongTables<dim>::add_body(const StepRecord &record, const std::string &name,
                           const GrainState<dim> &state)
 {
-  body_rows.push_back({CsvTable::word(step), CsvTable::word(time), name});
-  auto &row = body_rows.back();
+  auto &row = body_rows.emplace_back(word_row(step_values(record)));
+  row.push_back(name);
   add_vector<dim>(state.motion.position, row);
   add_vector<dim>(state.motion.displacement, row);
   add_axial<dim>(state.motion.rotation, row);
@@ -127,7 +159,7 @@ LongTables<dim>::add_body(const double step, const double time, const std::strin
 
 template <int dim>
 void
-LongTables<dim>::gather(const double step, const double time, const std::vector<ContactPair> &pairs,
+LongTables<dim>::gather(const StepRecord &record, const std::vector<ContactPair> &pairs,
                         const std::vector<ContactSummary<dim>> &summaries,
                         const std::vector<GrainState<dim>>     &grains,
                         const dealii::BoundingBox<dim> &region, const bool geometry_is_moving,
@@ -145,15 +177,16 @@ LongTables<dim>::gather(const double step, const double time, const std::vector<
         met.insert(unique_pair);
       if (!writes || met.count(unique_pair) == 0)
         continue;
-      add_contact(step, time, pairs[p], summaries[p], grains);
+      add_contact(record, pairs[p], summaries[p], grains);
       pairs_of_rows.push_back(unique_pair);
     }
   if (!writes)
     return;
   for (unsigned int b = 0; b < bodies.size(); ++b)
-    add_body(step, time, bodies[b].name, grains[b]);
-  assembly_row = Assembly<dim>(region, bodies, pairs, summaries, grains).values();
-  assembly_row.insert(assembly_row.begin(), {step, time});
+    add_body(record, bodies[b].name, grains[b]);
+  assembly_row           = step_values(record);
+  const auto of_assembly = Assembly<dim>(region, bodies, pairs, summaries, grains).values();
+  assembly_row.insert(assembly_row.end(), of_assembly.begin(), of_assembly.end());
 }
 
 template <int dim>
@@ -171,11 +204,19 @@ LongTables<dim>::add_transfers(
 
 template <int dim>
 bool
-LongTables<dim>::is_assembly() const
+LongTables<dim>::is_assembly(const bool there_are_pairs) const
 {
-  return has_pairs && std::count_if(bodies.begin(), bodies.end(), [](const Body<dim> &body) {
-                        return !body.is_rigid();
-                      }) > 1;
+  return there_are_pairs && std::count_if(bodies.begin(), bodies.end(), [](const Body<dim> &body) {
+                              return !body.is_rigid();
+                            }) > 1;
+}
+
+template <int dim>
+std::vector<double>
+LongTables<dim>::assembly_values() const
+{
+  const std::size_t n = assembly_row.empty() ? 0 : step_columns().size();
+  return {assembly_row.begin() + n, assembly_row.end()};
 }
 
 template <int dim>

@@ -17,31 +17,6 @@ namespace scree
 {
 namespace
 {
-template <int dim>
-std::vector<std::string>
-pair_columns(const std::vector<ContactPair> &pairs)
-{
-  std::vector<std::string> names;
-  for (const ContactPair &pair : pairs)
-    {
-      add_resultant_names<dim>(pair.name, names);
-      for (const std::string column : {"minimum_gap", "max_penetration", "open", "stick", "slip"})
-        names.push_back(pair.name + "." + column);
-    }
-  return names;
-}
-
-/** Columns of pairs on a moving geometry: see MotionRecord::force_jumps. */
-template <int dim>
-std::vector<std::string>
-transfer_columns(const std::vector<ContactPair> &pairs)
-{
-  std::vector<std::string> names;
-  for (const ContactPair &pair : pairs)
-    add_vector_names<dim>(pair.name + ".transfer", names);
-  return names;
-}
-
 /** The entries of a row whose columns are not left out. */
 template <typename T>
 std::vector<T>
@@ -70,13 +45,14 @@ add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &m
 template <int dim>
 Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
                       const std::vector<ProbeParameters<dim>> &probes,
-                      const FieldParameters &fields, const bool pairs_change)
+                      const FieldParameters &fields, const bool pairs_change, const bool has_stages)
     : directory(directory)
     , bodies(bodies)
     , probes(probes)
     , fields(fields)
     , pairs_change(pairs_change)
-    , long_tables(directory, bodies)
+    , has_stages(has_stages)
+    , long_tables(directory, bodies, has_stages)
 {
   for (auto &probe : this->probes)
     probe.with_plastic_strain = may_flow(bodies[body_of_probe(probe, bodies)]);
@@ -91,121 +67,6 @@ Results<dim>::set_discretization(const DisplacementSpace<dim> &new_space,
   nodes = &level_set_nodes;
   body_output.reset();
   is_first = dealii::Utilities::MPI::this_mpi_process(new_space.grid.communicator()) == 0;
-}
-
-template <int dim>
-const std::vector<ContactPair> &
-Results<dim>::pairs_with_columns(const ContactPoints<dim> &contact) const
-{
-  static const std::vector<ContactPair> none;
-  return pairs_change ? none : contact.pairs();
-}
-
-template <int dim>
-std::set<std::string>
-Results<dim>::left_out(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
-{
-  const auto &pairs = pairs_with_columns(contact);
-  if (pairs.size() <= most_pairs_in_history)
-    return {};
-  const auto            names = pair_columns<dim>(pairs);
-  std::set<std::string> result(names.begin(), names.end());
-  if (equilibrium.kinematics.moves_bodies())
-    {
-      const auto transfers = transfer_columns<dim>(pairs);
-      result.insert(transfers.begin(), transfers.end());
-    }
-  return result;
-}
-
-template <int dim>
-std::vector<std::string>
-Results<dim>::history_columns(const Equilibrium<dim>   &equilibrium,
-                              const ContactPoints<dim> &contact) const
-{
-  std::vector<std::string> names
-    = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
-  const auto of_pairs = pair_columns<dim>(pairs_with_columns(contact));
-  names.insert(names.end(), of_pairs.begin(), of_pairs.end());
-  for (const std::string &condition : equilibrium.condition_names())
-    {
-      add_vector_names<dim>(condition + ".displacement", names);
-      add_resultant_names<dim>(condition, names);
-    }
-  for (const auto &body : bodies)
-    if (body.is_rigid())
-      add_rigid_names<dim>(body.name, names);
-  const bool is_moving = equilibrium.kinematics.moves_bodies();
-  for (const auto &body : bodies)
-    if (!body.is_rigid())
-      names.push_back(body.name + (is_moving ? ".start_volume" : ".volume"));
-  for (const std::string energy : {"strain", "ghost_penalty", "boundary", "contact", "dissipation",
-                                   "plastic", "external_work", "transfer", "balance_error"})
-    names.push_back("energy." + energy);
-  if (equilibrium.mass)
-    {
-      names.push_back("energy.kinetic");
-      for (const auto &body : bodies)
-        {
-          add_vector_names<dim>(body.name + ".momentum", names);
-          add_axial_names<dim>(body.name + ".angular_momentum", names);
-        }
-    }
-  if (!is_moving)
-    return names;
-  for (const auto &body : bodies)
-    if (!body.is_rigid())
-      for (const std::string column : {"volume", "point_volume", "mass", "points"})
-        names.push_back(body.name + "." + column);
-  const auto transfers = transfer_columns<dim>(pairs_with_columns(contact));
-  names.insert(names.end(), transfers.begin(), transfers.end());
-  names.push_back("islands");
-  names.push_back("widened_transfers");
-  return names;
-}
-
-template <int dim>
-std::vector<std::string>
-Results<dim>::probe_columns() const
-{
-  std::vector<std::string> names;
-  for (const auto &probe : probes)
-    if (probe.n_points == 1)
-      for (const std::string &column : sample_columns(probe))
-        names.push_back(probe.name + "." + column);
-  return names;
-}
-
-template <int dim>
-std::vector<std::string>
-Results<dim>::probe_table_columns() const
-{
-  std::vector<std::string> names = probe_columns();
-  names.insert(names.begin(), "time");
-  return names;
-}
-
-template <int dim>
-std::vector<std::string>
-Results<dim>::columns(const Equilibrium<dim> &equilibrium, const ContactPoints<dim> &contact) const
-{
-  std::vector<std::string>       names     = history_columns(equilibrium, contact);
-  const std::vector<std::string> of_probes = probe_columns();
-  names.insert(names.end(), of_probes.begin(), of_probes.end());
-  return names;
-}
-
-template <int dim>
-void
-Results<dim>::require_distinct_columns(const Equilibrium<dim>   &equilibrium,
-                                       const ContactPoints<dim> &contact) const
-{
-  std::set<std::string> seen;
-  for (const std::string &name : columns(equilibrium, contact))
-    require(seen.insert(name).second, "Bodies",
-            "two columns of history.csv and probes.csv would be called '" + name + "'",
-            "change the names of bodies, boundary conditions or probes: those of pairs, 'a-b', and "
-            "of conditions, 'body.condition', must differ when they are joined");
 }
 
 template <int dim>
@@ -237,6 +98,8 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
+  if (has_stages)
+    values.push_back(record.stage);
   for (unsigned int p = 0; p < pairs_with_columns(contact).size(); ++p)
     {
       const auto &summary = summaries[p];
@@ -275,7 +138,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
   const auto grains = grain_states(bodies, contact.pairs(), summaries, motions,
                                    equilibrium.body_stresses(u), is_moving);
   chains            = ForceChains<dim>(bodies, contact.pairs(), summaries, grains);
-  long_tables.gather(record.step, record.time, contact.pairs(), summaries, grains,
+  long_tables.gather(record, contact.pairs(), summaries, grains,
                      box_of_grains(*space, *nodes, bodies, quadrature, ghosted_u), is_moving,
                      is_first);
 }

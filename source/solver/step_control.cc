@@ -98,6 +98,7 @@ StepControl::accept(const unsigned int newton_iterations)
 {
   Assert(!finished(), dealii::ExcMessage("The end time is reached."));
   tick += step_ticks();
+  longest = 0;
   ++accepted;
   easy_in_a_row = newton_iterations <= parameters.easy_iterations ? easy_in_a_row + 1 : 0;
   if (easy_in_a_row >= 2 && length < ticks_per_step)
@@ -115,7 +116,8 @@ StepControl::reject()
   easy_in_a_row = 0;
   if (step_ticks() == 1)
     return false;
-  length = step_ticks() / 2;
+  length  = step_ticks() / 2;
+  longest = 0;
   return true;
 }
 
@@ -126,9 +128,30 @@ StepControl::shorten(const double size)
     {
       if (step_ticks() == 1)
         return false;
-      length = step_ticks() / 2;
+      length  = step_ticks() / 2;
+      longest = 0;
     }
   return true;
+}
+
+bool
+StepControl::cut(const double part)
+{
+  const std::int64_t before = step_ticks();
+  longest = std::clamp<std::int64_t>(std::llround(part * static_cast<double>(before)), 1, before);
+  return step_ticks() < before;
+}
+
+void
+StepControl::change_times(const TimeParameters &changed)
+{
+  const double now = time();
+  Assert(changed.minimum_step_fraction == parameters.minimum_step_fraction,
+         dealii::ExcInternalError());
+  parameters = changed;
+  end_tick   = static_cast<std::int64_t>(parameters.steps) * ticks_per_step;
+  tick       = tick_at(now);
+  Assert(time() == now, dealii::ExcMessage("No step may begin now."));
 }
 
 StepControlRecord
@@ -210,6 +233,7 @@ StepControl::tick_at(const double time) const
 std::int64_t
 StepControl::step_ticks() const
 {
-  return std::min(length, ticks_per_step - tick % ticks_per_step);
+  const std::int64_t ticks = std::min(length, ticks_per_step - tick % ticks_per_step);
+  return longest > 0 ? std::min(ticks, longest) : ticks;
 }
 } // namespace scree

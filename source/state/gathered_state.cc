@@ -75,7 +75,7 @@ require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
 
 template <int dim>
 typename GatheredState<dim>::Geometry
-saved_geometry(const Body<dim> &body)
+saved_geometry(const Body<dim> &body, const bool is_reset)
 {
   typename GatheredState<dim>::Geometry result;
   result.pose = body.pose.unknowns();
@@ -87,30 +87,51 @@ saved_geometry(const Body<dim> &body)
   result.box          = body.box;
   result.displacement = body.displacement;
   result.has_shape    = body.shape != nullptr;
+  if (is_reset)
+    {
+      result.initial_lower     = body.initial_level_set->lower();
+      result.initial_n_nodes   = body.initial_level_set->n_nodes();
+      result.initial_level_set = body.initial_level_set->values();
+    }
+  return result;
+}
+
+template <int dim>
+Lattice<dim>
+restored_lattice(const LatticeFrame<dim> &frame, const typename Lattice<dim>::Index &lower,
+                 const typename Lattice<dim>::Index &n, const std::vector<double> &values,
+                 const std::string &directory)
+{
+  require_consistent(
+    values.size()
+      == std::accumulate(n.begin(), n.end(), std::size_t(1), std::multiplies<std::size_t>()),
+    directory);
+  Lattice<dim> result(frame, lower, n);
+  result.values() = values;
   return result;
 }
 
 template <int dim>
 void
-restore_geometry(const typename GatheredState<dim>::Geometry &saved, const std::string &directory,
-                 BodyGeometry<dim> &geometry)
+restore_geometry(const typename GatheredState<dim>::Geometry &saved, const bool is_reset,
+                 const std::string &directory, Body<dim> &geometry)
 {
-  const auto &n = saved.n_nodes;
-  require_consistent(
-    saved.level_set.size()
-      == std::accumulate(n.begin(), n.end(), std::size_t(1), std::multiplies<std::size_t>()),
-    directory);
-  geometry.level_set          = Lattice<dim>(geometry.level_set.frame(), saved.lower, n);
-  geometry.level_set.values() = saved.level_set;
-  geometry.box                = saved.box;
-  geometry.displacement       = saved.displacement;
+  const LatticeFrame<dim> frame = geometry.level_set.frame();
+  geometry.level_set
+    = restored_lattice<dim>(frame, saved.lower, saved.n_nodes, saved.level_set, directory);
+  if (is_reset)
+    geometry.initial_level_set = std::make_shared<const Lattice<dim>>(restored_lattice<dim>(
+      frame, saved.initial_lower, saved.initial_n_nodes, saved.initial_level_set, directory));
+  geometry.box          = saved.box;
+  geometry.displacement = saved.displacement;
   if (!saved.has_shape)
     geometry.shape = nullptr;
 }
 
 template <int dim>
 void
-gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredState<dim> &result)
+gather_moving(const State<dim> &state, const MPI_Comm communicator, const bool is_reset,
+              GatheredState<dim> &result)
 {
   std::vector<double> points;
   points.reserve(state.points.size() * state.points.n_values());
@@ -123,7 +144,7 @@ gather_moving(const State<dim> &state, const MPI_Comm communicator, GatheredStat
   result.increments_of_rigid        = state.predictor.of_rigid;
   result.rates_of_rigid             = state.predictor.rates_of_rigid;
   for (const Body<dim> &body : state.bodies)
-    result.bodies.push_back(saved_geometry(body));
+    result.bodies.push_back(saved_geometry(body, is_reset));
 }
 
 /** The vectors of a state of a fixed geometry, with or without those of inertia. */
@@ -181,14 +202,15 @@ gather_fixed(const State<dim> &state, const DisplacementSpace<dim> &space,
 template <int dim>
 GatheredState<dim>
 gather(const State<dim> &state, const DisplacementSpace<dim> &space,
-       const ContactPoints<dim> &contact, const bool is_moving)
+       const ContactPoints<dim> &contact, const bool is_moving, const bool is_reset)
 {
   GatheredState<dim> result;
   result.energies       = state.energies;
   result.last_step_size = state.predictor.step_size;
   result.has_inertia    = state.predictor.rates.acceleration.size() > 0;
+  result.is_reset       = is_reset;
   if (is_moving)
-    gather_moving(state, space.grid.communicator(), result);
+    gather_moving(state, space.grid.communicator(), is_reset, result);
   else
     gather_fixed(state, space, contact, result);
   return result;
@@ -260,14 +282,14 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
   state.predictor.rates_of_rigid = saved.rates_of_rigid;
   for (unsigned int b = 0; b < state.bodies.size(); ++b)
     if (!state.bodies[b].is_rigid())
-      restore_geometry<dim>(saved.bodies[b], directory, state.bodies[b]);
+      restore_geometry<dim>(saved.bodies[b], saved.is_reset, directory, state.bodies[b]);
   state.energies    = saved.energies;
   state.has_started = true;
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                \
   template GatheredState<dim> gather(const State<dim> &, const DisplacementSpace<dim> &,      \
-                                     const ContactPoints<dim> &, const bool);                 \
+                                     const ContactPoints<dim> &, const bool, const bool);     \
   template void restore_fixed(const GatheredState<dim> &, const DisplacementSpace<dim> &,     \
                               const ContactPoints<dim> &, const std::string &, State<dim> &); \
   template void restore_moving(const GatheredState<dim> &, const dealii::BoundingBox<dim> &,  \

@@ -174,7 +174,7 @@ TEST(RotationVector, OfRotationTimesStretch)
 
 /** A step of two bodies that touch at (1, 0) or not; body b has moved to (2, 0). */
 void
-write_step(LongTables<2> &tables, const std::vector<Body<2>> &bodies, const double step,
+write_step(LongTables<2> &tables, const std::vector<Body<2>> &bodies, const unsigned int step,
            const bool is_closed)
 {
   ContactSummary<2> summary;
@@ -196,7 +196,11 @@ write_step(LongTables<2> &tables, const std::vector<Body<2>> &bodies, const doub
   for (auto &stress : stresses)
     stress.integral = {2., 2.5, SymmetricTensor<2, 2>({-3., 1., 0.})};
   const std::vector<ContactPair> pairs = {{0, 1, "a-b", {}}};
-  tables.gather(step, 0.5 * step, pairs, {summary},
+  StepRecord                     record;
+  record.step  = step;
+  record.time  = 0.5 * step;
+  record.stage = 3;
+  tables.gather(record, pairs, {summary},
                 grain_states(bodies, pairs, {summary}, motions, stresses, true),
                 BoundingBox<2>({Point<2>(-1., -1.), Point<2>(3., 1.)}), true, true);
   tables.add_transfers({{{0u, 1u}, Tensor<1, 2>({0.25, 0.})}});
@@ -214,10 +218,10 @@ TEST(LongTables, RowsOfWhatIsOrWasClosedAlsoAfterAResume)
   LongTablesRecord record;
   {
     LongTables<2> tables(directory, bodies);
-    write_step(tables, bodies, 1., false);
-    write_step(tables, bodies, 2., true);
+    write_step(tables, bodies, 1, false);
+    write_step(tables, bodies, 2, true);
     record = tables.record();
-    write_step(tables, bodies, 3., false);
+    write_step(tables, bodies, 3, false);
   }
   EXPECT_EQ(record.n_contact_rows, 1u);
   EXPECT_EQ(record.n_body_rows, 4u);
@@ -240,11 +244,20 @@ TEST(LongTables, RowsOfWhatIsOrWasClosedAlsoAfterAResume)
   {
     LongTables<2> tables(directory, bodies);
     tables.resume(record, true, true);
-    write_step(tables, bodies, 3., false);
+    write_step(tables, bodies, 3, false);
   }
   EXPECT_EQ(content(directory + "/contacts.csv"), contacts);
   EXPECT_EQ(content(directory + "/grains.csv"), grains);
   EXPECT_EQ(content(directory + "/assembly.csv"), assembly);
+  {
+    LongTables<2> tables(directory, bodies, true);
+    write_step(tables, bodies, 1, true);
+    EXPECT_EQ(tables.assembly_values().size(), Assembly<2>::columns().size());
+    EXPECT_EQ(tables.assembly_values().front(), 2.);
+  }
+  EXPECT_EQ(content(directory + "/contacts.csv").find("step,time,stage,pair,"), 0u);
+  EXPECT_NE(content(directory + "/grains.csv").find("\n1,0.5,3,a,"), std::string::npos);
+  EXPECT_NE(content(directory + "/assembly.csv").find("\n1,0.5,3,2,2,1,"), std::string::npos);
 }
 } // namespace
 } // namespace scree

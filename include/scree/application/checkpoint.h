@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/application/stages.h>
 #include <scree/application/stepper.h>
 #include <scree/base/warnings.h>
 #include <scree/output/results.h>
@@ -22,6 +23,7 @@ struct Checkpoint
   std::string                        program;    //!< version that wrote it
   std::map<std::string, std::string> parameters; //!< of the run, value by path
   StepControlRecord                  steps;
+  StageRecord<dim>                   stages;
   ResultsRecord                      results;
   Warnings                           warnings;
   StepperRecord                      stepper;
@@ -30,7 +32,7 @@ struct Checkpoint
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &program &parameters &steps &results &warnings &stepper &state;
+    archive &program &parameters &steps &stages &results &warnings &stepper &state;
   }
 
   /** Writes it into a directory (write_checkpoint_file()); by one process. Returns its bytes. */

@@ -87,6 +87,28 @@ public:
    */
   void go_back(State<dim> &&to, const double step_size);
 
+  /**
+   * Undoes accept(), before the geometry moves: goes back to what state() was before, and begins a
+   * step there (collective).
+   */
+  void take_back(State<dim> &&before, const double step_size);
+
+  /**
+   * Takes what drives the rigid bodies from now on, and friction, from the parameters (collective).
+   * Where other components are free than before, or friction changes, the discrete problem is made
+   * anew.
+   */
+  void begin_stage(const bool friction_changes, const double step_size);
+
+  /**
+   * On a moving geometry without inertia, at the start of a step: lets the bodies be free of
+   * stress, strain and tangential traction where they are, the new start of their displacements;
+   * equivalent plastic strain stays (collective).
+   *
+   * @return the change of the stored energy
+   */
+  double reset(const double step_size);
+
   /** What a checkpoint needs of the state, on process 0; collective. */
   GatheredState<dim> gathered() const;
 
@@ -101,12 +123,18 @@ private:
   std::vector<Body<dim>> make_bodies_and_laws();
   /** Those that may touch before the pairs are found again. */
   std::vector<ContactPair> find_pairs() const;
+  /** The bodies with those free that a load drives in some stage: so are pairs found that are the
+   * same in all stages. */
+  std::vector<Body<dim>> freed_bodies() const;
   /** Lattice nodes coincide with the nodes of level sets on the finest cells. */
   LatticeFrame<dim> lattice_frame() const;
   /** Wide enough for the reach of contact and for coarse cells that straddle the surface. */
   double lattice_margin() const;
   /** Grid and discrete problem of the present geometry. */
   void discretise(const double step_size);
+  void make_problem(const double step_size);
+  /** On a fixed geometry: makes the problem see the state. */
+  void resume_problem();
   /** Begins a step on the new geometry: State::displacement and the history of contact. */
   void start_step();
   /** Sets the displacements of rigid bodies to their poses. */
@@ -127,6 +155,7 @@ private:
   std::unique_ptr<BackgroundGrid<dim>>         grid;
   State<dim>                                   current;
   bool                                         pairs_are_many = false;
+  bool                                         is_reset       = false; //!< in the course of the run
   std::vector<ContactPair>                     pairs;
   std::unique_ptr<DiscreteProblem<dim>>        discrete_problem;
 };

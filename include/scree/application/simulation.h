@@ -2,6 +2,7 @@
 
 #include <scree/application/checkpoint_saver.h>
 #include <scree/application/model.h>
+#include <scree/application/stage_control.h>
 #include <scree/application/stepper.h>
 #include <scree/output/run_report.h>
 
@@ -53,12 +54,18 @@ public:
 
 private:
   void report_set_up();
+  void begin_stages();
   /** Makes the step that comes as short as the stepper needs it. */
   void shorten_step();
+  /** Gathers what was found in the step; whether it ends a stage and is to be shorter for that. */
+  bool is_cut(const Attempt<dim> &attempt);
   /** Writes the accepted step, moves the geometry, saves. */
   void finish_step(Attempt<dim> &attempt, const double wall_time);
   /** Prepares another attempt of a step: in another way, or of a shorter step. */
   void try_again(const Attempt<dim> &attempt);
+  /** Whether the step that was accepted ends a stage; then times are those with the next one. */
+  bool ends_stage();
+  void begin_next_stage();
   void write_results(const StepRecord &record);
   /** Of the moved geometry. */
   void write_points(const StepRecord &record);
@@ -75,8 +82,10 @@ private:
   /** Goes to the state of a checkpoint; the problem is set up. */
   void resume(const Checkpoint<dim> &checkpoint);
 
-  const Parameters<dim>               parameters;
+  const Parameters<dim>               input;
   const MPI_Comm                      communicator;
+  StageControl<dim>                   stages;
+  Parameters<dim>                     parameters; //!< in the present stage
   const std::string                   directory;
   RunLog                              run_log;
   RunReport<dim>                      report;

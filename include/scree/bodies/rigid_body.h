@@ -50,6 +50,9 @@ public:
             const Lattice<dim> &picture, const std::shared_ptr<const Shape<dim>> &shape,
             const double density = 0.);
 
+  /** Drives it otherwise from now on. @return whether other components are free */
+  bool set_motion(const MotionParameters<dim> &parameters);
+
   dealii::Point<dim>       reference_point;
   double                   radius;  //!< half the largest edge of its box [L], scales the rotations
   dealii::BoundingBox<dim> box;     //!< of the whole body
@@ -75,7 +78,7 @@ public:
 
 private:
   std::string                               path;
-  std::array<bool, n_rigid_components<dim>> free;
+  std::array<bool, n_rigid_components<dim>> free = {};
   std::vector<Expression<dim>>              values;
 };
 

@@ -2,6 +2,7 @@
 
 #include <scree/output/assembly.h>
 #include <scree/output/csv_table.h>
+#include <scree/output/step_record.h>
 
 #include <boost/serialization/set.hpp>
 #include <boost/serialization/utility.hpp>
@@ -40,7 +41,9 @@ template <int dim>
 class LongTables
 {
 public:
-  LongTables(const std::string &directory, const std::vector<Body<dim>> &bodies);
+  /** @param has_stages whether the tables have the column `stage` */
+  LongTables(const std::string &directory, const std::vector<Body<dim>> &bodies,
+             const bool has_stages = false);
 
   /**
    * Gathers the rows of a step.
@@ -48,7 +51,7 @@ public:
    * @param region  of the assembly
    * @param writes  whether this process writes the tables; the others note which pairs have met
    */
-  void gather(const double step, const double time, const std::vector<ContactPair> &pairs,
+  void gather(const StepRecord &record, const std::vector<ContactPair> &pairs,
               const std::vector<ContactSummary<dim>> &summaries,
               const std::vector<GrainState<dim>> &grains, const dealii::BoundingBox<dim> &region,
               const bool geometry_is_moving, const bool writes);
@@ -64,8 +67,15 @@ public:
   /** Writes rows that the disk refused before; whether nothing is left. */
   bool flush();
 
-  /** Whether there are pairs and two deformable bodies. */
-  bool is_assembly() const;
+  /** Whether there are pairs, now or if one says so, and two deformable bodies. */
+  bool is_assembly() const
+  {
+    return is_assembly(has_pairs);
+  }
+  bool is_assembly(const bool there_are_pairs) const;
+
+  /** Of Assembly::columns() after the last gather(), on the process that writes. */
+  std::vector<double> assembly_values() const;
 
   LongTablesRecord record() const;
 
@@ -74,16 +84,19 @@ public:
               const bool contact_has_pairs);
 
 private:
+  /** Columns and values with which each row begins. */
+  std::vector<std::string> step_columns() const;
+  std::vector<double>      step_values(const StepRecord &record) const;
   std::vector<std::string> contact_columns() const;
   std::vector<std::string> body_columns() const;
   std::vector<std::string> assembly_columns() const;
-  void add_contact(const double step, const double time, const ContactPair &pair,
-                   const ContactSummary<dim> &summary, const std::vector<GrainState<dim>> &grains);
-  void add_body(const double step, const double time, const std::string &name,
-                const GrainState<dim> &state);
+  void                     add_contact(const StepRecord &record, const ContactPair &pair,
+                                       const ContactSummary<dim> &summary, const std::vector<GrainState<dim>> &grains);
+  void add_body(const StepRecord &record, const std::string &name, const GrainState<dim> &state);
 
   std::string                                        directory;
   const std::vector<Body<dim>>                      &bodies;
+  bool                                               has_stages;
   std::unique_ptr<CsvTable>                          contact_table, body_table, assembly_table;
   std::set<std::pair<unsigned int, unsigned int>>    met;
   bool                                               has_pairs = false, is_moving = false;

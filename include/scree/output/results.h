@@ -7,6 +7,7 @@
 #include <scree/output/force_chains.h>
 #include <scree/output/long_tables.h>
 #include <scree/output/probes.h>
+#include <scree/output/step_record.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
@@ -20,18 +21,6 @@
 
 namespace scree
 {
-/** How a load step was solved, for the history and the log. */
-struct StepRecord
-{
-  unsigned int        step              = 0;
-  double              time              = 0.;
-  unsigned int        newton_iterations = 0; //!< of the accepted attempt
-  unsigned int        attempts          = 1; //!< 1 + number of cuts before
-  unsigned int        linear_iterations = 0;
-  double              residual          = 0.; //!< |r| at the end
-  std::vector<double> momenta           = {}; //!< with inertia, of body after body: linear, angular
-};
-
 /** The bodies and their contact after the geometry moved at the end of a step. */
 template <int dim>
 struct MotionRecord
@@ -73,10 +62,13 @@ public:
   /** history.csv has columns of pairs only if there are at most as many. */
   static constexpr unsigned int most_pairs_in_history = 30;
 
-  /** @param pairs_change from step to step: history.csv has no columns of them */
+  /**
+   * @param pairs_change from step to step: history.csv has no columns of them
+   * @param has_stages   whether tables with a row per step have the column `stage`
+   */
   Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes, const FieldParameters &fields,
-          const bool pairs_change);
+          const bool pairs_change, const bool has_stages);
 
   /** What the next results refer to; to be told whenever it was made anew. */
   void set_discretization(const DisplacementSpace<dim> &space,
@@ -100,6 +92,16 @@ public:
   void gather_history(const StepRecord &record, const Equilibrium<dim> &equilibrium,
                       const ContactPoints<dim> &contact, const CutQuadrature<dim> &quadrature,
                       const Vector &u);
+
+  /**
+   * Names of what the last gather_history() found: columns of history.csv, but those of the motion
+   * after the step, and of assembly.csv if there is one.
+   */
+  std::vector<std::string> quantities(const Equilibrium<dim>   &equilibrium,
+                                      const ContactPoints<dim> &contact) const;
+
+  /** Their values between gather_history() and gather_motion(), on the first process. */
+  std::vector<double> quantity_values() const;
 
   /** Adds to it what the motion of the geometry after the step found: see MotionRecord. */
   void gather_motion(const MotionRecord<dim> &motion);
@@ -149,8 +151,11 @@ private:
   std::vector<std::vector<double>> sample_probe(const ProbeParameters<dim> &probe,
                                                 const Kinematics<dim>      &kinematics,
                                                 const Vector               &ghosted_u) const;
-  std::vector<std::string>         history_columns(const Equilibrium<dim>   &equilibrium,
-                                                   const ContactPoints<dim> &contact) const;
+  /** Of gather_history(). */
+  std::vector<std::string> state_columns(const Equilibrium<dim>   &equilibrium,
+                                         const ContactPoints<dim> &contact) const;
+  std::vector<std::string> history_columns(const Equilibrium<dim>   &equilibrium,
+                                           const ContactPoints<dim> &contact) const;
   /** The pairs that are the same in all steps. */
   const std::vector<ContactPair> &pairs_with_columns(const ContactPoints<dim> &contact) const;
   /** The columns of pairs, if history.csv has none of them. */
@@ -168,7 +173,7 @@ private:
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
   FieldParameters                             fields;
-  bool                                        pairs_change;
+  bool                                        pairs_change, has_stages;
   const DisplacementSpace<dim>               *space = nullptr;
   const LevelSetNodes<dim>                   *nodes = nullptr;
   std::unique_ptr<BodyOutput<dim>>            body_output;      //!< made when first needed

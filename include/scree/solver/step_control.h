@@ -96,6 +96,15 @@ public:
   /** Halves the step until it is at most `size` [time]; false: it is as small as allowed before. */
   bool shorten(const double size);
 
+  /**
+   * Shortens the step that comes now, and no other, to that part of it, or as near as steps may be;
+   * false: it is as short already.
+   */
+  bool cut(const double part);
+
+  /** Goes on, at the present time, with other nominal times, of which it is one. */
+  void change_times(const TimeParameters &parameters);
+
   StepControlRecord record() const;
 
   /**
@@ -120,6 +129,7 @@ private:
   std::int64_t   end_tick;          // steps * ticks_per_step
   std::int64_t   tick = 0;          // the present time
   std::int64_t   length;            // wanted length of the next step, in ticks
+  std::int64_t   longest       = 0; // of the step to be tried now, in ticks; 0: any
   unsigned int   easy_in_a_row = 0; // accepted easy steps since the length changed
   unsigned int   accepted      = 0;
   unsigned int   rejected      = 0;

@@ -22,6 +22,8 @@ struct GatheredState
   {
     typename Lattice<dim>::Index      lower = {}, n_nodes = {}; //!< of the lattice
     std::vector<double>               level_set;                //!< nodal values [L]
+    typename Lattice<dim>::Index      initial_lower = {}, initial_n_nodes = {}; //!< after a reset
+    std::vector<double>               initial_level_set;                        //!< the same
     dealii::BoundingBox<dim>          box;
     typename RigidPose<dim>::Unknowns pose = {};
     ExtendedIncrement<dim>            displacement;
@@ -30,13 +32,15 @@ struct GatheredState
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &lower &n_nodes &level_set &box &pose &displacement &has_shape;
+      archive &lower &n_nodes &level_set &initial_lower &initial_n_nodes &initial_level_set &box
+        &pose &displacement &has_shape;
     }
   };
 
   Energies energies;
   double   last_step_size = 0.; //!< Predictor::step_size
   bool     has_inertia    = false;
+  bool     is_reset       = false; //!< displacements of a moving geometry are not from the start
 
   // On a fixed geometry.
   PlacedValues<dim>   nodes;    //!< by body: displacement and Predictor::rates
@@ -54,15 +58,16 @@ struct GatheredState
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &energies &last_step_size &has_inertia &nodes &contact &trailing &points &bodies
-      &step_end &increments_of_bodies &increments_of_rigid &rates_of_rigid;
+    archive &energies &last_step_size &has_inertia &is_reset &nodes &contact &trailing &points
+      &bodies &step_end &increments_of_bodies &increments_of_rigid &rates_of_rigid;
   }
 };
 
-/** The state on process 0; collective. */
+/** The state on process 0; collective. @param is_reset see GatheredState */
 template <int dim>
 GatheredState<dim> gather(const State<dim> &state, const DisplacementSpace<dim> &space,
-                          const ContactPoints<dim> &contact, const bool is_moving);
+                          const ContactPoints<dim> &contact, const bool is_moving,
+                          const bool is_reset = false);
 
 /**
  * Sets the state of a fixed geometry that was set up on these fields and contact points; the time
