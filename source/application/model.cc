@@ -157,14 +157,10 @@ template <int dim>
 void
 Model<dim>::make_problem(const double step_size)
 {
-  const ProblemParameters of_problem{parameters.discretization,
-                                     parameters.contact.shift,
-                                     parameters.contact.grid_nodes,
-                                     parameters.contact.enforcement,
-                                     parameters.moving,
-                                     parameters.linear_solver,
-                                     parameters.time_scheme.has_inertia(),
-                                     parameters.time_scheme.lumps_mass};
+  const Parameters<dim>  &p = parameters;
+  const ProblemParameters of_problem{
+    p.discretization, p.contact.shift, p.contact.grid_nodes,        p.contact.enforcement,
+    p.moving,         p.linear_solver, p.time_scheme.has_inertia(), p.time_scheme.lumps_mass};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }
