@@ -26,7 +26,7 @@ struct Header
 };
 
 constexpr char          mark[16] = "scree restart\n\x1a";
-constexpr std::uint32_t format   = 7;
+constexpr std::uint32_t format   = 8;
 
 std::uint32_t
 checksum(const std::string &bytes, const std::size_t n)
