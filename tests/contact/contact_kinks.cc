@@ -209,12 +209,14 @@ TEST(AdjustedContact, StartsWithoutGap)
     {
       const CutBodies<2>    model(two_half_planes(0.3, gap, 2));
       ContactPairParameters law;
-      law.kind   = &contact_law("frictionless");
-      law.adjust = 0.021;
-      for (const auto &point : points_with(model, law).points())
+      law.kind               = &contact_law("frictionless");
+      law.adjust             = 0.021;
+      const auto with_larger = points_with(model, law);
+      for (const auto &point : with_larger.points())
         EXPECT_NEAR(point.initial_gap, 0., 1e-15);
-      law.adjust = 0.019;
-      for (const auto &point : points_with(model, law).points())
+      law.adjust              = 0.019;
+      const auto with_smaller = points_with(model, law);
+      for (const auto &point : with_smaller.points())
         EXPECT_NEAR(point.initial_gap, gap, 1e-5);
     }
 }
