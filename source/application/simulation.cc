@@ -76,6 +76,7 @@ Simulation<dim>::run()
   const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
   dealii::Timer      wall;
   unsigned int       n_attempts = 0; // of the present step
+  std::optional<State<dim>> before;  // it, where it may be taken back
   if (!step_control.finished())
     require_prescribable();
   stepper->begin();
@@ -83,8 +84,7 @@ Simulation<dim>::run()
   while (!step_control.finished())
     {
       shorten_step();
-      std::optional<State<dim>> before;
-      if (stages.has_stop())
+      if (stages.has_stop() && !before)
         before = model.state();
       Attempt<dim> attempt = stepper->attempt();
       ++n_attempts;
@@ -100,9 +100,11 @@ Simulation<dim>::run()
       if (is_cut(attempt))
         {
           model.take_back(std::move(*before), step_control.step_size());
+          before.reset();
           continue;
         }
       n_attempts = 0;
+      before.reset();
       finish_step(attempt, wall.wall_time());
     }
   finish();
