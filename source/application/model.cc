@@ -6,6 +6,7 @@
 #include <scree/mechanics/motion_rates.h>
 #include <scree/mechanics/moving_level_sets.h>
 #include <scree/mechanics/step_criteria.h>
+#include <scree/mechanics/step_start.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,7 +22,6 @@ template <int dim>
 void
 start_from_here(MaterialPoints<dim> &points)
 {
-  constexpr unsigned int alpha = 6; // see store_internal()
   for (std::size_t i = 0; i < points.size(); ++i)
     {
       points.initial_volume[i]       = points.volume(i);
@@ -29,9 +29,8 @@ start_from_here(MaterialPoints<dim> &points)
       points.reference_position[i]   = points.position[i];
       points.deformation_gradient[i] = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
       points.stress[i]               = 0.;
-      for (unsigned int k = 0; k < points.n_internal(); ++k)
-        if (k != alpha)
-          points.internal[i * points.n_internal() + k] = 0.;
+      if (points.n_internal() > 0)
+        keep_hardening(&points.internal[i * points.n_internal()]);
     }
 }
 } // namespace
@@ -49,8 +48,8 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   if (is_moving())
     require_movable(current.bodies);
   pairs_are_many = is_moving()
-                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, freed_bodies(),
-                                          parameters.contact);
+                   && has_more_pairs_than(Results<dim>::most_pairs_in_history, current.bodies,
+                                          parameters.contact, ever_free());
   pairs = find_pairs();
   require_distinct(current.bodies, pairs);
   discretise(step_size);
@@ -114,23 +113,16 @@ Model<dim>::find_pairs() const
       reach = pairs_are_many ? std::min(everywhere, std::max(reach, grid->reach_of_refinement()))
                              : everywhere;
     }
-  return pairs_within(reach, freed_bodies(), parameters.contact);
+  return pairs_within(reach, current.bodies, parameters.contact, ever_free());
 }
 
 template <int dim>
-std::vector<Body<dim>>
-Model<dim>::freed_bodies() const
+std::vector<bool>
+Model<dim>::ever_free() const
 {
-  auto result = current.bodies;
-  for (unsigned int b = 0; b < result.size(); ++b)
-    if (is_ever_free(parameters.stages, result[b].name))
-      {
-        auto motion = parameters.bodies[b].motion;
-        motion.load.fill("0");
-        auto freed = std::make_shared<RigidBody<dim>>(*result[b].rigid);
-        freed->set_motion(motion);
-        result[b].rigid = freed;
-      }
+  std::vector<bool> result;
+  for (const Body<dim> &body : current.bodies)
+    result.push_back(is_ever_free(parameters.stages, body.name));
   return result;
 }
 
@@ -359,7 +351,8 @@ Model<dim>::start_step()
     {
       fit_rates();
       Rates &rates = current.predictor.rates;
-      remove_approach(problem(), current.contact, rates);
+      if (parameters.contact.grid_nodes.is_chosen)
+        remove_approach(problem(), current.contact, rates);
       problem().equilibrium().set_kinetic_energy(
         problem().mass->kinetic_energy(current.displacement, rates));
       problem().equilibrium().set_inertia(

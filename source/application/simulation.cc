@@ -131,6 +131,7 @@ template <int dim>
 bool
 Simulation<dim>::is_cut(const Attempt<dim> &attempt)
 {
+  const Timings::Scope        scope(run_log.timings, "output");
   const DiscreteProblem<dim> &problem = model.problem();
   if (model.is_moving()) // Closing contact may have moved it.
     results.set_discretization(problem.space, problem.level_set_nodes);

@@ -25,15 +25,17 @@ require_contact_within_reach(const ContactPoints<dim> &contact, const double rea
       n_beyond += contact.points()[i].initial_gap > largest_gap && contact.gap(i) < 0.
                   && contact.responses()[i].pressure > 0.;
     }
+  if (dealii::Utilities::MPI::sum(n_beyond, communicator) == 0)
+    return;
   at_nodes = dealii::Utilities::MPI::max(at_nodes ? 1 : 0, communicator) == 1;
-  require(dealii::Utilities::MPI::sum(n_beyond, communicator) == 0,
-          at_nodes ? "Contact/Surface" : "Contact/Shift",
-          "bodies touch where they were farther apart than " + short_number(largest_gap)
-            + " at the start, "
-            + (at_nodes ? "and may have met where they share no nodes"
-                        : "which is where the contact surface ends"),
-          at_nodes ? "take more steps on a moving geometry, or set Contact/Surface = level sets"
-                   : "raise Contact/Shift");
+  throw UserError(at_nodes ? "Contact/Surface" : "Contact/Shift",
+                  "bodies touch where they were farther apart than " + short_number(largest_gap)
+                    + " at the start, "
+                    + (at_nodes ? "and may have met where they share no nodes"
+                                : "which is where the contact surface ends"),
+                  at_nodes
+                    ? "take more steps on a moving geometry, or set Contact/Surface = level sets"
+                    : "raise Contact/Shift");
 }
 
 template <int dim>

@@ -113,6 +113,14 @@ store_internal(const IncrementLaw<dim> &law, const PointHistory<dim> &history, d
   internal[6] = history.alpha;
 }
 
+void
+keep_hardening(double *internal)
+{
+  const double alpha = internal[6];
+  std::fill_n(internal, StepStart<2>::n_internal, 0.);
+  internal[6] = alpha;
+}
+
 template <int dim>
 bool
 StepStart<dim>::needs_internal(const std::vector<Body<dim>> &bodies)

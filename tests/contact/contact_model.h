@@ -12,11 +12,10 @@
 
 namespace scree
 {
-/** The contact points of a model, the same law for all pairs. */
+/** The pairs of a model, the same law for all of them. */
 template <int dim>
-ContactPoints<dim>
-contact_points(const CutBodies<dim> &model, const std::string &law = "frictionless",
-               const IncrementPrediction<dim> &prediction = {})
+std::vector<ContactPair>
+pairs_with(const CutBodies<dim> &model, const std::string &law)
 {
   std::vector<ContactPair> pairs;
   for (const auto &[a, b] : model.pairs)
@@ -25,6 +24,16 @@ contact_points(const CutBodies<dim> &model, const std::string &law = "frictionle
       parameters.kind = &contact_law(law);
       pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, parameters});
     }
+  return pairs;
+}
+
+/** The contact points of a model, the same law for all pairs. */
+template <int dim>
+ContactPoints<dim>
+contact_points(const CutBodies<dim> &model, const std::string &law = "frictionless",
+               const IncrementPrediction<dim> &prediction = {})
+{
+  const std::vector<ContactPair> pairs = pairs_with(model, law);
   return ContactPoints<dim>(
     model.bodies, pairs,
     level_set_surface(*model.space, *model.level_set_nodes, model.bodies, pairs,

@@ -23,13 +23,7 @@ ContactPoints<dim>
 node_contact(const CutBodies<dim> &model, const GridNodeParameters &parameters = {},
              const std::string &law = "frictionless")
 {
-  std::vector<ContactPair> pairs;
-  for (const auto &[a, b] : model.pairs)
-    {
-      ContactPairParameters of_pair;
-      of_pair.kind = &contact_law(law);
-      pairs.push_back({a, b, model.bodies[a].name + "-" + model.bodies[b].name, of_pair});
-    }
+  const std::vector<ContactPair> pairs = pairs_with(model, law);
   return ContactPoints<dim>(
     model.bodies, pairs,
     grid_node_contact(*model.space, *model.level_set_nodes, model.bodies, pairs, parameters));

@@ -123,9 +123,8 @@ private:
   std::vector<Body<dim>> make_bodies_and_laws();
   /** Those that may touch before the pairs are found again. */
   std::vector<ContactPair> find_pairs() const;
-  /** The bodies with those free that a load drives in some stage: so are pairs found that are the
-   * same in all stages. */
-  std::vector<Body<dim>> freed_bodies() const;
+  /** Of each body, whether a load drives it in some stage: so are pairs the same in all stages. */
+  std::vector<bool> ever_free() const;
   /** Lattice nodes coincide with the nodes of level sets on the finest cells. */
   LatticeFrame<dim> lattice_frame() const;
   /** Wide enough for the reach of contact and for coarse cells that straddle the surface. */

@@ -138,4 +138,7 @@ private:
 template <int dim>
 void store_internal(const IncrementLaw<dim> &law, const PointHistory<dim> &history,
                     double *internal);
+
+/** Leaves alpha alone of what store_internal() put there: the point is undeformed. */
+void keep_hardening(double *internal);
 } // namespace scree
