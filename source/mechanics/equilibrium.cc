@@ -50,8 +50,12 @@ Equilibrium<dim>::set_up_matrices()
   const auto     of_bulk      = bulk.couplings();
   const auto     of_contact   = contact.jump_operator().couplings();
   ghosted_dofs                = space.relevant();
+  std::vector<DofIndex> of_stencils; // At once: single lists are inserted in linear time each.
   for (const auto &unknowns : of_contact)
-    ghosted_dofs.add_indices(unknowns.begin(), unknowns.end());
+    of_stencils.insert(of_stencils.end(), unknowns.begin(), unknowns.end());
+  std::sort(of_stencils.begin(), of_stencils.end());
+  ghosted_dofs.add_indices(of_stencils.begin(),
+                           std::unique(of_stencils.begin(), of_stencils.end()));
   ghosted_dofs.compress();
 
   dealii::DynamicSparsityPattern pattern(space.n_dofs(), space.n_dofs(), ghosted_dofs);

@@ -17,6 +17,10 @@ namespace
 /** Extra memory in percent of MUMPS's own estimate, one after the other. */
 constexpr std::array<int, 4> extra_memory = {{40, 100, 300, 1000}};
 
+/** Of unknowns: QAMD, minimum degree with rows that are nearly full last. PORD, MUMPS's own choice,
+ * takes longer than all else here and saves little. */
+constexpr int ordering = 6;
+
 // Jobs of MUMPS.
 constexpr int initialise = -1, terminate = -2, analyse = 1, numeric = 2, substitute = 3;
 
@@ -127,7 +131,8 @@ Mumps::Mumps(const int n, const bool symmetric, const MatrixEntries &entries,
   dmumps_c(&id);
   for (const int stream : {1, 2, 3, 4})
     instance->control(stream) = stream < 4 ? -1 : 0;
-  id.n = n;
+  instance->control(7) = ordering;
+  id.n                 = n;
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
     {
       id.nnz = rows.size();
@@ -205,6 +210,12 @@ double
 Mumps::operations() const
 {
   return instance->id.rinfog[2];
+}
+
+int
+Mumps::n_negative_pivots() const
+{
+  return instance->id.infog[11];
 }
 
 void

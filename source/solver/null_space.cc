@@ -1,7 +1,8 @@
+#include <scree/solver/mumps.h>
 #include <scree/solver/null_space.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/lapack_templates.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
@@ -12,88 +13,142 @@ namespace scree
 {
 namespace
 {
-using DenseMatrix = dealii::FullMatrix<double>;
-using Vector      = dealii::Vector<double>;
+using dealii::types::blas_int;
+using DenseMatrix  = dealii::FullMatrix<double>;
+using SparseMatrix = dealii::SparseMatrix<double>;
+
+/** Vectors of n numbers, one after the other. */
+using Block = std::vector<double>;
 
 constexpr unsigned int largest_dense  = 100;
-constexpr unsigned int first_size     = 8; // of the subspace
 constexpr unsigned int max_iterations = 30;
 constexpr double       steady         = 1e-2; // change of a Ritz value, relative
 
-/** Gram and Schmidt, twice. */
-void
-orthonormalise(std::vector<Vector> &basis)
+/** A + shift 1, of which one triangle is given. */
+class ShiftedInverse
 {
-  for (std::size_t j = 0; j < basis.size(); ++j)
-    {
-      for (std::size_t i = 0; i < 2 * j; ++i)
-        basis[j].add(-(basis[i % j] * basis[j]), basis[i % j]);
-      basis[j] /= basis[j].l2_norm();
-    }
+public:
+  explicit ShiftedInverse(const SparseMatrix &A)
+  {
+    for (unsigned int row = 0; row < A.m(); ++row)
+      for (auto entry = A.begin(row); entry != A.end(row); ++entry)
+        if (entry->column() <= row)
+          {
+            entries.rows.push_back(row);
+            entries.columns.push_back(entry->column());
+            entries.values.push_back(entry->value());
+          }
+    const std::vector<int> kept;
+    inverse = std::make_unique<Mumps>(A.m(), true, entries, kept, MPI_COMM_SELF);
+  }
+
+  void factorise(const double shift)
+  {
+    std::vector<double> values(entries.values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (entries.rows[i] == entries.columns[i])
+        values[i] += shift;
+    inverse->factorise(values);
+  }
+
+  /** Of the matrix factorised last. */
+  unsigned int n_negative_eigenvalues() const
+  {
+    return inverse->n_negative_pivots();
+  }
+
+  void apply(Block &basis) const
+  {
+    inverse->solve(basis);
+  }
+
+private:
+  MatrixEntries          entries;
+  std::unique_ptr<Mumps> inverse;
+};
+
+/** alpha = 1, beta = 0: C = op(A) B of m x k and k x n numbers. */
+void
+multiply(const char *transposed, const blas_int m, const blas_int n, const blas_int k,
+         const Block &A, const Block &B, Block &C)
+{
+  const double   one = 1., zero = 0.;
+  const blas_int rows_of_a = *transposed == 'T' ? k : m;
+  C.resize(m * n);
+  dealii::gemm(transposed, "N", &m, &n, &k, &one, A.data(), &rows_of_a, B.data(), &k, &zero,
+               C.data(), &m);
 }
 
-/** Turns a basis into Ritz vectors; returns the Ritz values, ascending. */
-Vector
-rotate_to_ritz_vectors(const dealii::SparseMatrix<double> &A, std::vector<Vector> &basis)
+/** Householder's QR decomposition: the basis becomes Q. */
+void
+orthonormalise(const blas_int n, Block &basis)
 {
-  const unsigned int p = basis.size(), n = A.m();
-  DenseMatrix        projected(p, p), vectors;
-  Vector             product(n), values;
-  for (unsigned int j = 0; j < p; ++j)
-    {
-      A.vmult(product, basis[j]);
-      for (unsigned int i = 0; i < p; ++i)
-        projected(i, j) = basis[i] * product;
-    }
-  dealii::LAPACKFullMatrix<double> copy(p, p);
-  copy               = projected;
-  const double bound = 1. + projected.frobenius_norm();
-  copy.compute_eigenvalues_symmetric(-bound, bound, 0., values, vectors);
-  std::vector<Vector> turned(p, Vector(n));
-  for (unsigned int j = 0; j < p; ++j)
-    for (unsigned int i = 0; i < p; ++i)
-      turned[j].add(vectors(i, j), basis[i]);
-  basis.swap(turned);
+  const blas_int      p = basis.size() / n, n_work = 64 * p;
+  blas_int            info = 0;
+  std::vector<double> tau(p), work(n_work);
+  dealii::geqrf(&n, &p, basis.data(), &n, tau.data(), work.data(), &n_work, &info);
+  dealii::orgqr(&n, &p, &p, basis.data(), &n, tau.data(), work.data(), &n_work, &info);
+}
+
+/** Turns an orthonormal basis into Ritz vectors; returns the Ritz values, ascending. */
+dealii::Vector<double>
+rotate_to_ritz_vectors(const SparseMatrix &A, Block &basis)
+{
+  const unsigned int n = A.m(), p = basis.size() / n;
+  Block              product(basis.size(), 0.), projected;
+  for (unsigned int row = 0; row < n; ++row)
+    for (auto entry = A.begin(row); entry != A.end(row); ++entry)
+      for (unsigned int j = 0; j < p; ++j)
+        product[j * n + row] += entry->value() * basis[j * n + entry->column()];
+  multiply("T", p, p, n, basis, product, projected);
+  dealii::LAPACKFullMatrix<double> matrix(p, p);
+  for (unsigned int i = 0; i < p; ++i)
+    for (unsigned int j = 0; j < p; ++j)
+      matrix(i, j) = 0.5 * (projected[j * p + i] + projected[i * p + j]);
+  const double           bound = 1. + matrix.frobenius_norm();
+  dealii::Vector<double> values;
+  DenseMatrix            vectors;
+  matrix.compute_eigenvalues_symmetric(-bound, bound, 0., values, vectors);
+  Block turns(p * p);
+  for (unsigned int i = 0; i < p; ++i)
+    for (unsigned int j = 0; j < p; ++j)
+      turns[j * p + i] = vectors(i, j);
+  multiply("N", n, p, p, basis, turns, product);
+  basis.swap(product);
   return values;
 }
 
-/** Lowest Ritz vectors in a subspace; returns the Ritz values, empty if the subspace is too small
- * to have one above the limit or the iteration does not end. */
-std::vector<double>
-iterate(const dealii::SparseMatrix<double> &A, const dealii::SparseDirectUMFPACK &inverse,
-        const double limit, std::vector<Vector> &basis)
+/**
+ * Iterates a basis until its lowest k Ritz values, which fall towards the k eigenvalues up to the
+ * limit, are below it and stay; false: they do not.
+ */
+bool
+iterate(const SparseMatrix &A, const ShiftedInverse &inverse, const double limit,
+        const unsigned int k, Block &basis)
 {
-  Vector values(basis.size()), before;
+  dealii::Vector<double> values, before;
   for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
     {
-      for (Vector &vector : basis)
-        inverse.solve(vector);
-      orthonormalise(basis);
-      before = values;
-      values = rotate_to_ritz_vectors(A, basis);
-      // They fall from above.
-      const unsigned int n_below
-        = std::upper_bound(values.begin(), values.end(), limit) - values.begin();
-      if (n_below == basis.size())
-        return {};
-      bool is_steady = iteration > 0;
-      for (unsigned int i = 0; i <= n_below; ++i)
-        is_steady &= std::abs(values[i] - before[i]) <= steady * std::max(limit, values[i]);
+      inverse.apply(basis);
+      orthonormalise(A.m(), basis);
+      before         = values;
+      values         = rotate_to_ritz_vectors(A, basis);
+      bool is_steady = iteration > 0 && values[k - 1] <= limit;
+      for (unsigned int i = 0; is_steady && i < k; ++i)
+        is_steady = std::abs(values[i] - before[i]) <= steady * limit;
       if (is_steady)
-        return {values.begin(), values.end()};
+        return true;
     }
-  return {};
+  return false;
 }
 
-std::vector<Vector>
-random_vectors(const unsigned int n, const unsigned int size)
+Block
+random_numbers(const std::size_t n)
 {
   std::mt19937                     generator(1);
   std::normal_distribution<double> normal;
-  std::vector<Vector>              result(size, Vector(n));
-  for (Vector &vector : result)
-    for (double &entry : vector)
-      entry = normal(generator);
+  Block                            result(n);
+  std::generate(result.begin(), result.end(), [&]() { return normal(generator); });
   return result;
 }
 } // namespace
@@ -117,36 +172,32 @@ null_space(const DenseMatrix &A, const double limit)
 }
 
 DenseMatrix
-null_space(const dealii::SparseMatrix<double> &A, const double limit)
+null_space(const SparseMatrix &A, const double limit)
 {
-  const unsigned int n     = A.m();
-  const auto         dense = [&]() {
-    DenseMatrix matrix(n, n);
-    matrix.copy_from(A);
-    return null_space(matrix, limit);
-  };
-  if (n <= largest_dense)
-    return dense();
-  dealii::SparseMatrix<double> shifted(A.get_sparsity_pattern());
-  shifted.copy_from(A);
-  for (unsigned int i = 0; i < n; ++i)
-    shifted.diag_element(i) += limit;
-  dealii::SparseDirectUMFPACK inverse;
-  inverse.initialize(shifted);
-  for (unsigned int size = first_size; size < n / 2; size *= 2)
+  constexpr double   just_above = 1. + 1e-9;
+  const unsigned int n          = A.m();
+  if (n > largest_dense)
     {
-      auto       basis  = random_vectors(n, size);
-      const auto values = iterate(A, inverse, limit, basis);
-      if (values.empty())
-        continue;
-      const unsigned int n_below
-        = std::upper_bound(values.begin(), values.end(), limit) - values.begin();
-      DenseMatrix vectors(n, n_below);
-      for (unsigned int j = 0; j < n_below; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          vectors(i, j) = basis[j][i];
-      return vectors;
+      ShiftedInverse inverse(A);
+      inverse.factorise(-just_above * limit);
+      const unsigned int k = inverse.n_negative_eigenvalues();
+      if (k == 0)
+        return DenseMatrix(n, 0);
+      inverse.factorise(limit);
+      for (unsigned int extra = std::max(8U, k / 4); k + extra < n / 2; extra *= 2)
+        {
+          Block basis = random_numbers(std::size_t(n) * (k + extra));
+          if (!iterate(A, inverse, just_above * limit, k, basis))
+            continue;
+          DenseMatrix vectors(n, k);
+          for (unsigned int j = 0; j < k; ++j)
+            for (unsigned int i = 0; i < n; ++i)
+              vectors(i, j) = basis[std::size_t(j) * n + i];
+          return vectors;
+        }
     }
-  return dense();
+  DenseMatrix matrix(n, n);
+  matrix.copy_from(A);
+  return null_space(matrix, limit);
 }
 } // namespace scree

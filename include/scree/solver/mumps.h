@@ -63,6 +63,9 @@ public:
   /** Floating-point operations of the last factorisation. */
   double operations() const;
 
+  /** Negative pivots of the last factorisation of a symmetric matrix: its negative eigenvalues. */
+  int n_negative_pivots() const;
+
   /** Solves for the columns of `right` (process 0: n numbers each) in place. No kept rows. */
   void solve(std::vector<double> &right) const;
 

@@ -12,10 +12,11 @@ namespace scree
 dealii::FullMatrix<double> null_space(const dealii::FullMatrix<double> &A, const double limit);
 
 /**
- * The same of a sparse matrix, whole on this process. Of a large one (A + limit 1)^-1, factorised
- * once, is applied to a subspace until its Ritz values up to the first above the limit stay: O(n k)
- * numbers and O(n k^2) operations for k vectors, beside the factorisation. Where k > n/2 it is
- * solved as a dense one.
+ * The same of a sparse matrix, whole on this process. Of a large one the pivots of A - limit 1
+ * count the k eigenvalues up to the limit (Sylvester). (A + limit 1)^-1 is applied to k vectors and
+ * some more until so many Ritz values are that low and stay: O(n k) numbers and O(n k^2) operations
+ * beside the factorisations. Where k is near n/2 it is solved as a dense one. Throws
+ * LinearSolverFailure.
  *
  * @param A     with its diagonal in the sparsity pattern
  * @param limit positive
