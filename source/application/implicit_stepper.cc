@@ -345,7 +345,7 @@ ImplicitStepper<dim>::newton(const bool is_patient)
   constexpr unsigned int few        = 40;
   NewtonParameters       of_attempt = parameters.newton;
   if (!is_patient)
-    of_attempt.max_iterations = std::min(of_attempt.max_iterations, few);
+    of_attempt.patience = few;
   return Newton(of_attempt, hooks());
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace scree
 {
@@ -20,6 +21,8 @@ constexpr double round_off = 1e-6;
 constexpr double told_imbalance = 1e-2;
 /** Of a stiffness times a motion: what is no force but rounding. */
 constexpr double no_force = 1e-11;
+/** Times the rounding in the stiffness of the softest body: forces that are none. */
+constexpr double no_forces = 100.;
 /** Of the result: the error of linear kinematics that is told. */
 constexpr double largest_rotation_error = 0.01;
 /** Of a body that only contact holds: the angle that ends the run on a fixed geometry. */
@@ -30,6 +33,21 @@ struct Explanation
 {
   std::string cause, remedy;
 };
+
+/** Young's moduli of the softest and the stiffest body. */
+template <int dim>
+std::pair<double, double>
+least_and_most_stiff(const std::vector<Body<dim>> &bodies)
+{
+  double least = std::numeric_limits<double>::max(), most = 0.;
+  for (const auto &body : bodies)
+    if (!body.is_rigid())
+      {
+        least = std::min(least, body.material->young());
+        most  = std::max(most, body.material->young());
+      }
+  return {least, most};
+}
 
 template <int dim>
 Explanation
@@ -43,14 +61,11 @@ explain_imbalance(const DiscreteProblem<dim> &problem, const NewtonParameters &n
               + ", Absolute tolerance = " + short_number(newton.absolute_tolerance)
               + " of forces of " + short_number(equilibrium.force_scale()),
             "tighten them in section Solver/Newton"};
-  double stiffest = 0., softest = std::numeric_limits<double>::max(), poisson = -1.;
+  const auto [softest, stiffest] = least_and_most_stiff(problem.bodies);
+  double poisson                 = -1.;
   for (const auto &body : problem.bodies)
     if (!body.is_rigid())
-      {
-        stiffest = std::max(stiffest, body.material->young());
-        softest  = std::min(softest, body.material->young());
-        poisson  = std::max(poisson, body.material->poisson());
-      }
+      poisson = std::max(poisson, body.material->poisson());
   return {"; round-off in the stiffness of the bodies is that large (Young's moduli from "
             + short_number(softest) + " to " + short_number(stiffest)
             + ", Poisson's ratios up to 0.5 - " + short_number(0.5 - poisson) + ")",
@@ -105,6 +120,16 @@ find_rigid_rotations(const DiscreteProblem<dim>              &problem,
 }
 } // namespace
 
+double
+balanced_residual(const double force_scale, const double relative_tolerance,
+                  const double stiffness_round_off, const double softest_to_stiffest)
+{
+  if (force_scale <= no_forces * softest_to_stiffest * stiffness_round_off)
+    return std::max(relative_tolerance * force_scale, stiffness_round_off);
+  return std::max(relative_tolerance * force_scale,
+                  std::min(stiffness_round_off, round_off * force_scale));
+}
+
 template <int dim>
 std::vector<BodyBalance<dim>>
 require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
@@ -122,9 +147,12 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
       softest = std::min(softest, bodies[balance.body].material->young()
                                     * std::pow(balance.radius, dim - 2));
     }
-  const double scale     = equilibrium.force_scale();
-  const double tolerance = std::max(newton.relative_tolerance * scale,
-                                    std::min(equilibrium.round_off(), round_off * scale));
+  const double scale       = equilibrium.force_scale();
+  double       tolerance   = std::max(newton.relative_tolerance * scale,
+                                      std::min(equilibrium.round_off(), round_off * scale));
+  const auto [least, most] = least_and_most_stiff(problem.bodies);
+  if (scale <= no_forces * equilibrium.round_off() * least / most)
+    tolerance = std::max(tolerance, equilibrium.round_off());
   for (const BodyBalance<dim> &balance : balances)
     {
       const Body<dim> &body = bodies[balance.body];

@@ -1,9 +1,27 @@
+#include <scree/discretization/own_nodes.h>
 #include <scree/mechanics/system_solver.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace scree
 {
+namespace
+{
+template <int dim>
+std::size_t
+unknowns_of_largest_body(const DisplacementSpace<dim> &space)
+{
+  std::vector<double> n_unknowns(space.n_bodies(), 0.);
+  for_each_own_node(space, [&](const unsigned int a, const unsigned int, const DofIndex) {
+    n_unknowns[space.cells()[a].body] += dim;
+  });
+  dealii::Utilities::MPI::sum(n_unknowns, space.grid.communicator(), n_unknowns);
+  return *std::max_element(n_unknowns.begin(), n_unknowns.end());
+}
+} // namespace
+
 template <int dim>
 SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters,
                                 const DisplacementSpace<dim> &space, Equilibrium<dim> &equilibrium,
@@ -12,6 +30,7 @@ SystemSolver<dim>::SystemSolver(const LinearSolverParameters &parameters,
     , timings(timings)
     , linear_solver(parameters, dim, space.basis.degree)
 {
+  linear_solver.set_largest_body(unknowns_of_largest_body(space));
   const auto n_all_points
     = dealii::Utilities::MPI::sum(n_contact_points, space.grid.communicator());
   condenses = equilibrium.is_linear_elsewhere()

@@ -114,12 +114,13 @@ LinearSolverParameters::declare(const ParameterSection &section)
 {
   section.entry("Type", type, type_names,
                 "direct, iterative, or automatic: direct up to the numbers of unknowns below.");
-  section.entry("Direct up to (2D)", direct_up_to_2d,
-                "Unknowns up to which automatic means direct in two dimensions.");
+  section.entry(
+    "Direct up to (2D)", direct_up_to_2d,
+    "Unknowns of the largest body, or a tenth of all, up to which automatic means direct in two "
+    "dimensions.");
   section.entry(
     "Direct up to (3D)", direct_up_to_3d,
-    "Unknowns up to which automatic means direct in three dimensions; six times as many "
-    "of degree 2, whose multigrid is slow.");
+    "The same in three dimensions; six times as many of degree 2, whose multigrid is slow.");
   section.entry("Direct package", direct_package, package_names,
                 "Direct solver. automatic: KLU for small systems on one process, else MUMPS.");
   section.entry(
@@ -354,13 +355,22 @@ LinearSolver::set_border(const unsigned int n_unknowns)
   n_border = n_unknowns;
 }
 
+void
+LinearSolver::set_largest_body(const std::size_t n_unknowns)
+{
+  largest_body = n_unknowns;
+}
+
 bool
 LinearSolver::is_direct(const std::size_t n_unknowns) const
 {
+  constexpr std::size_t many = 10;
+  const std::size_t     size
+    = largest_body == 0 ? n_unknowns : std::max(largest_body, n_unknowns / many);
   if (parameters.type != LinearSolverType::automatic)
     return parameters.type == LinearSolverType::direct;
   const std::size_t up_to_3d = (degree == 1 ? 1 : 6) * std::size_t(parameters.direct_up_to_3d);
-  return n_unknowns <= (dimension == 2 ? parameters.direct_up_to_2d : up_to_3d);
+  return size <= (dimension == 2 ? parameters.direct_up_to_2d : up_to_3d);
 }
 
 LinearSolveResult

@@ -364,7 +364,10 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
   if (hooks.is_interrupted && hooks.is_interrupted())
     return End{NewtonStatus::interrupted,
                "interrupted after %u iterations, |r| = %.3e (tolerance %.3e)"};
-  if (iteration.number >= parameters.max_iterations)
+  const bool goes_well
+    = residuals.size() > 1 && residuals.back() <= 0.1 * residuals[residuals.size() - 2];
+  if (iteration.number >= parameters.max_iterations
+      || (iteration.number >= parameters.patience && !goes_well))
     return End{NewtonStatus::max_iterations,
                "not converged in %u iterations, |r| = %.3e (tolerance %.3e)"};
   return {};

@@ -73,6 +73,18 @@ vector(const std::vector<double> &values)
   return v;
 }
 
+TEST(LinearSolver, ManyBodiesAreSolvedDirectly)
+{
+  LinearSolver solver(LinearSolverParameters(), 2);
+  EXPECT_TRUE(solver.condenses(300000, 1));
+  EXPECT_FALSE(solver.condenses(300001, 1));
+  solver.set_largest_body(500);
+  EXPECT_TRUE(solver.condenses(3000000, 1));
+  EXPECT_FALSE(solver.condenses(3000010, 1));
+  solver.set_largest_body(300001);
+  EXPECT_FALSE(solver.condenses(300001, 1));
+}
+
 TEST(LinearSolver, AllSolversAgree)
 {
   Square       square(5, true, MPI_COMM_SELF);

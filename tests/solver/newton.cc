@@ -263,6 +263,20 @@ TEST(Newton, NothingToDoTakesNoIteration)
   EXPECT_EQ(result.iterations, 0u);
 }
 
+TEST(Newton, PatienceEndsWithTheIterationThatDoesNotHelp)
+{
+  // x^2 = 2 from afar: |r| falls to a quarter in each iteration, then quadratically.
+  const auto       f          = [](const double x) { return x * x - 2.; };
+  const auto       d          = [](const double x) { return 2. * x; };
+  NewtonParameters parameters = with(LineSearch::none);
+  Vector           u          = vector({1e3});
+  parameters.patience         = 3;
+  EXPECT_EQ(Newton(parameters, scalar(f, d)).solve(u).iterations, 3u);
+  u                   = vector({1.5});
+  parameters.patience = 1;
+  EXPECT_TRUE(Newton(parameters, scalar(f, d)).solve(u).converged()); // in 4
+}
+
 TEST(Newton, RoundOffPlateauIsAccepted)
 {
   // The residual never falls below 3e-12, a stand-in for the rounding of large internal forces.

@@ -157,6 +157,11 @@ public:
     return owned_dofs.size();
   }
 
+  unsigned int n_bodies() const
+  {
+    return colour.size();
+  }
+
   /** Unknowns that belong to no node: components of rigid bodies, then multipliers. */
   unsigned int n_trailing() const
   {

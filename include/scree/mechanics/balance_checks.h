@@ -9,6 +9,15 @@
 namespace scree
 {
 /**
+ * Residual of a node that leaves a body in balance [force]: what Newton's method accepts; of
+ * rounding in the stiffness no more than 1e-6 of the forces, lest that of a stiff body hides them;
+ * all of it where forces are no more than 100 times that of the softest body, as of grains that
+ * lost contact.
+ */
+double balanced_residual(const double force_scale, const double relative_tolerance,
+                         const double stiffness_round_off, const double softest_to_stiffest);
+
+/**
  * That the converged step to `time` has every body in balance: forces, and moments where the body's
  * law balances them. Warns where contact at few points hardly holds a body against turning.
  * Collective.

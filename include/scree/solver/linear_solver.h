@@ -60,8 +60,8 @@ struct LinearSolverParameters
 {
   LinearSolverType type = LinearSolverType::automatic;
 
-  /** Unknowns up to which `automatic` solves directly in two and in three dimensions, there six
-   * times as many of degree 2, whose multigrid is slow. */
+  /** Unknowns of the largest body, or a tenth of all, up to which `automatic` solves directly in
+   * two and in three dimensions, there six times as many of degree 2, whose multigrid is slow. */
   unsigned int direct_up_to_2d = 300000;
   unsigned int direct_up_to_3d = 10000;
 
@@ -163,6 +163,10 @@ public:
    */
   void set_border(const unsigned int n_unknowns);
 
+  /** Unknowns of the largest body: contact couples bodies at few of them, so that factors and their
+   * cost grow with the bodies, not with their number. */
+  void set_largest_body(const std::size_t n_unknowns);
+
   /**
    * Solves A x = b. `x` must be distributed as the rows of the matrix; its content does not matter.
    *
@@ -190,7 +194,8 @@ private:
   unsigned int                   dimension;
   unsigned int                   degree;
   bool                           smooth_by_ilu;
-  unsigned int                   n_border = 0;
+  unsigned int                   n_border     = 0;
+  std::size_t                    largest_body = 0; //!< its unknowns; 0: not told
   std::vector<Vector>            near_null_space;
   std::unique_ptr<Factorisation> factorisation;
   std::unique_ptr<Multigrid>     multigrid;

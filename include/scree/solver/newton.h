@@ -31,6 +31,10 @@ struct NewtonParameters
   /** Of both methods together. */
   unsigned int max_iterations = 100;
 
+  /** After so many the iteration ends, too, unless the last one brought |r| to a tenth; no entry.
+   */
+  unsigned int patience = 0xffffffff;
+
   LineSearch line_search = LineSearch::work;
 
   /** The loosest relative tolerance of a linear system, 0 <= . < 1; 0: as tight as can be. */
@@ -168,16 +172,12 @@ public:
     /** u += du, or along a curve that begins with du; may be empty. */
     std::function<void(const Vector &du, Vector &u)> advance;
 
-    /**
-     * Moves u, that of the last call of `residual`, to where the forces on what moves freely
-     * balance; false: it stays. May be empty.
-     */
+    /** Moves u, that of the last `residual`, to where the forces on what moves freely balance;
+     * false: it stays. May be empty. */
     std::function<bool(Vector &u)> balance;
 
-    /**
-     * Whether `r`, that of the last call of `residual`, which ceased to fall, is below the
-     * tolerance but for what the accuracy of the geometry leaves. May be empty.
-     */
+    /** Whether `r`, that of the last `residual`, which ceased to fall, is below the tolerance but
+     * for what the accuracy of the geometry leaves. May be empty. */
     std::function<bool(const Vector &r, double tolerance)> is_geometric;
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
@@ -202,9 +202,8 @@ public:
   /** Keeps copies of both. */
   Newton(const NewtonParameters &parameters, const Hooks &hooks);
 
-  /**
-   * Solves for u, which enters with the first guess and satisfies the constraints (prescribed
-   * values included).
+  /** Solves for u, the first guess when it enters, which satisfies constraints and prescribed
+   * values.
    */
   NewtonResult solve(Vector &u) const;
 
