@@ -7,6 +7,7 @@ import re
 import resource
 import subprocess
 import sys
+import threading
 
 import numpy as np
 
@@ -91,6 +92,27 @@ def run_scree(binary, prm, results, settings=()):
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return {'unknowns': int(re.search(r'Unknowns: (\d+)', done.stdout).group(1)),
             'seconds': seconds}
+
+
+def run_limited(binary, prm, results, limit, processes=1):
+    """The output of a run, none if it took too long, CPU seconds, and the peak memory of its largest process in MB."""
+    command = [binary, str(prm), '--output', str(results)]
+    if processes > 1:
+        command = ['mpirun', '--oversubscribe', '-np', str(processes)] + command
+    with open(str(results) + '.txt', 'w+', encoding='utf-8') as output:
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                   env=dict(os.environ, OMP_NUM_THREADS='1'))
+        timer = threading.Timer(limit, process.terminate)
+        timer.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        timer.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        text = output.read()
+    if process.returncode != 0 and 'scree: ' in text:
+        sys.exit(text)
+    is_done = process.returncode == 0 and 'Finished in' in text
+    return (text if is_done else None), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def print_study_end(seconds='CPU seconds of the whole run on one core'):

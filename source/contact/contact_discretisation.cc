@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/contact/contact_discretisation.h>
 
 #include <algorithm>
@@ -24,9 +25,9 @@ values_at(const std::vector<NodeStencil>              &stencils,
     for (const auto &[node, weight] : stencil)
       for (unsigned int d = 0; d < dim; ++d)
         unknowns.push_back(node + d);
-  std::sort(unknowns.begin(), unknowns.end());
+  sort_and_unite(unknowns);
   dealii::IndexSet relevant(owned);
-  relevant.add_indices(unknowns.begin(), std::unique(unknowns.begin(), unknowns.end()));
+  relevant.add_indices(unknowns.begin(), unknowns.end());
   relevant.compress();
   result.reinit(owned, relevant, vector->get_mpi_communicator());
   result = *vector;

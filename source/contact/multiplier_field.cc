@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/contact/multiplier_field.h>
 
 #include <deal.II/base/mpi.h>
@@ -87,8 +88,7 @@ MultiplierField<dim>::MultiplierField(const std::vector<ContactPoint<dim>> &poin
   std::vector<NodeKey<dim>> all_keys;
   for (const auto &of_process : dealii::Utilities::MPI::all_gather(communicator, keys))
     all_keys.insert(all_keys.end(), of_process.begin(), of_process.end());
-  std::sort(all_keys.begin(), all_keys.end());
-  all_keys.erase(std::unique(all_keys.begin(), all_keys.end()), all_keys.end());
+  sort_and_unite(all_keys);
   for (unsigned int i = 0; i < keys.size(); ++i)
     supports[i / n_corners].nodes[i % n_corners]
       = std::lower_bound(all_keys.begin(), all_keys.end(), keys[i]) - all_keys.begin();

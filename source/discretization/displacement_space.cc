@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/discretization/displacement_space.h>
 #include <scree/grid/cell_bodies.h>
 
@@ -11,17 +12,6 @@
 
 namespace scree
 {
-namespace
-{
-template <typename T>
-void
-sort_and_unite(std::vector<T> &values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-} // namespace
-
 template <int dim>
 DisplacementSpace<dim>::DisplacementSpace(const BackgroundGrid<dim>    &grid,
                                           const unsigned int            degree,

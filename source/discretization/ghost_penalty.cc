@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/discretization/ghost_penalty.h>
 
 #include <algorithm>
@@ -42,8 +43,7 @@ GhostPenalty<dim>::couplings() const
   for (const GhostFace &face : jumps.faces())
     {
       std::vector<DofIndex> nodes = nodes_of(space, face);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      sort_and_unite(nodes);
       result.push_back(nodes);
     }
   return result;

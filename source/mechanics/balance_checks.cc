@@ -124,10 +124,10 @@ double
 balanced_residual(const double force_scale, const double relative_tolerance,
                   const double stiffness_round_off, const double softest_to_stiffest)
 {
-  if (force_scale <= no_forces * softest_to_stiffest * stiffness_round_off)
-    return std::max(relative_tolerance * force_scale, stiffness_round_off);
-  return std::max(relative_tolerance * force_scale,
-                  std::min(stiffness_round_off, round_off * force_scale));
+  const bool   are_forces = force_scale > no_forces * softest_to_stiffest * stiffness_round_off;
+  const double rounding
+    = are_forces ? std::min(stiffness_round_off, round_off * force_scale) : stiffness_round_off;
+  return std::max(relative_tolerance * force_scale, rounding);
 }
 
 template <int dim>

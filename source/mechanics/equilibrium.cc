@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/mechanics/condition_motion.h>
 #include <scree/mechanics/equilibrium.h>
 
@@ -53,9 +54,8 @@ Equilibrium<dim>::set_up_matrices()
   std::vector<DofIndex> of_stencils; // At once: single lists are inserted in linear time each.
   for (const auto &unknowns : of_contact)
     of_stencils.insert(of_stencils.end(), unknowns.begin(), unknowns.end());
-  std::sort(of_stencils.begin(), of_stencils.end());
-  ghosted_dofs.add_indices(of_stencils.begin(),
-                           std::unique(of_stencils.begin(), of_stencils.end()));
+  sort_and_unite(of_stencils);
+  ghosted_dofs.add_indices(of_stencils.begin(), of_stencils.end());
   ghosted_dofs.compress();
 
   dealii::DynamicSparsityPattern pattern(space.n_dofs(), space.n_dofs(), ghosted_dofs);

@@ -24,7 +24,7 @@ constexpr unsigned int largest_dense  = 100;
 constexpr unsigned int max_iterations = 30;
 constexpr double       steady         = 1e-2; // change of a Ritz value, relative
 
-/** A + shift 1, of which one triangle is given. */
+/** (A + shift 1)^-1 for one shift after the other. */
 class ShiftedInverse
 {
 public:
@@ -38,8 +38,7 @@ public:
             entries.columns.push_back(entry->column());
             entries.values.push_back(entry->value());
           }
-    const std::vector<int> kept;
-    inverse = std::make_unique<Mumps>(A.m(), true, entries, kept, MPI_COMM_SELF);
+    inverse = std::make_unique<Mumps>(A.m(), true, entries, std::vector<int>(), MPI_COMM_SELF);
   }
 
   void factorise(const double shift)
@@ -96,9 +95,9 @@ rotate_to_ritz_vectors(const SparseMatrix &A, Block &basis)
 {
   const unsigned int n = A.m(), p = basis.size() / n;
   Block              product(basis.size(), 0.), projected;
-  for (unsigned int row = 0; row < n; ++row)
-    for (auto entry = A.begin(row); entry != A.end(row); ++entry)
-      for (unsigned int j = 0; j < p; ++j)
+  for (unsigned int j = 0; j < p; ++j)
+    for (unsigned int row = 0; row < n; ++row)
+      for (auto entry = A.begin(row); entry != A.end(row); ++entry)
         product[j * n + row] += entry->value() * basis[j * n + entry->column()];
   multiply("T", p, p, n, basis, product, projected);
   dealii::LAPACKFullMatrix<double> matrix(p, p);

@@ -31,8 +31,7 @@ struct NewtonParameters
   /** Of both methods together. */
   unsigned int max_iterations = 100;
 
-  /** After so many the iteration ends, too, unless the last one brought |r| to a tenth; no entry.
-   */
+  /** Ends after so many, too, unless the last one brought |r| to a tenth; no entry. */
   unsigned int patience = 0xffffffff;
 
   LineSearch line_search = LineSearch::work;
@@ -202,9 +201,8 @@ public:
   /** Keeps copies of both. */
   Newton(const NewtonParameters &parameters, const Hooks &hooks);
 
-  /** Solves for u, the first guess when it enters, which satisfies constraints and prescribed
-   * values.
-   */
+  /** Solves for u, which enters with the first guess and satisfies the constraints (prescribed
+   * values included). */
   NewtonResult solve(Vector &u) const;
 
 private:
