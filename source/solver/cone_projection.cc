@@ -1,208 +1,273 @@
 #include <scree/solver/cone_projection.h>
+#include <scree/solver/mumps.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace scree
 {
 namespace
 {
 double
-dot(const double *a, const double *b, const std::size_t n)
+dot(const std::vector<double> &a, const std::vector<double> &b)
 {
   double sum = 0.;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < a.size(); ++i)
     sum += a[i] * b[i];
   return sum;
 }
 
-double
-dot(const SparseRows &rows, const std::size_t row, const double *b)
+/** A^T r for columns given as rows. */
+std::vector<double>
+transposed_times(const SparseRows &A, const std::vector<double> &r)
 {
-  double sum = 0.;
-  for (std::size_t i = rows.begin[row]; i < rows.begin[row + 1]; ++i)
-    sum += rows.values[i] * b[rows.columns[i]];
-  return sum;
+  std::vector<double> result(A.n_rows());
+  for (std::size_t j = 0; j < A.n_rows(); ++j)
+    for (std::size_t i = A.begin[j]; i < A.begin[j + 1]; ++i)
+      result[j] += A.values[i] * r[A.columns[i]];
+  return result;
 }
 
-/** b += factor a */
+/** r += A x */
 void
-add(const double factor, const SparseRows &rows, const std::size_t row, double *b)
+add_product(const SparseRows &A, const std::vector<double> &x, std::vector<double> &r)
 {
-  for (std::size_t i = rows.begin[row]; i < rows.begin[row + 1]; ++i)
-    b[rows.columns[i]] += factor * rows.values[i];
+  for (std::size_t j = 0; j < A.n_rows(); ++j)
+    for (std::size_t i = A.begin[j]; i < A.begin[j + 1]; ++i)
+      r[A.columns[i]] += A.values[i] * x[j];
 }
 
-/** Directions of unit length; rows without length vanish. */
+/** Columns of unit length; those without length are left out. */
 SparseRows
-normalised(SparseRows rows)
+directions(const SparseRows &reactions)
 {
-  for (std::size_t j = 0; j < rows.n_rows(); ++j)
+  SparseRows result;
+  for (std::size_t j = 0; j < reactions.n_rows(); ++j)
     {
-      const double *row    = rows.values.data() + rows.begin[j];
-      const double  length = std::sqrt(dot(row, row, rows.begin[j + 1] - rows.begin[j]));
-      for (std::size_t i = rows.begin[j]; i < rows.begin[j + 1]; ++i)
-        rows.values[i] /= length > 0. ? length : 1.;
+      double square = 0.;
+      for (std::size_t i = reactions.begin[j]; i < reactions.begin[j + 1]; ++i)
+        square += reactions.values[i] * reactions.values[i];
+      if (square == 0.)
+        continue;
+      for (std::size_t i = reactions.begin[j]; i < reactions.begin[j + 1]; ++i)
+        {
+          result.columns.push_back(reactions.columns[i]);
+          result.values.push_back(reactions.values[i] / std::sqrt(square));
+        }
+      result.begin.push_back(result.columns.size());
     }
-  return rows;
+  return result;
 }
 
-/** Active columns with their x, between the moves of Lawson and Hanson. */
-class ActiveSet
+/** The matrix I + A D A^T with a diagonal D that changes. */
+class WeightedNormalMatrix
 {
 public:
-  /** Columns have unit length. */
-  ActiveSet(const SparseRows &columns, const std::vector<double> &f)
-      : columns(columns)
-      , f(f)
-      , residual(f)
-      , is_tried(columns.n_rows(), 0)
+  WeightedNormalMatrix(const SparseRows &A, const std::size_t n)
+      : A(A)
+      , entries(pattern(A, n))
+      , mumps(n, true, entries, {}, MPI_COMM_SELF)
   {
   }
 
-  /** Takes the column along which |r| falls fastest; false: it falls along none. */
-  bool grow(const double tolerance)
+  void factorise(const std::vector<double> &D)
   {
-    const std::size_t none     = is_tried.size();
-    std::size_t       best     = none;
-    double            steepest = -tolerance;
-    for (std::size_t j = 0; j < none; ++j)
-      {
-        const double slope = is_tried[j] ? 0. : dot(columns, j, residual.data());
-        if (slope < steepest)
-          {
-            best     = j;
-            steepest = slope;
-          }
-      }
-    if (best == none)
-      return false;
-    is_tried[best] = 1;
-    active.push_back(best);
-    x.push_back(0.);
-    return true;
+    std::size_t k = 0;
+    for (std::size_t j = 0; j < A.n_rows(); ++j)
+      for (std::size_t a = A.begin[j]; a < A.begin[j + 1]; ++a)
+        for (std::size_t b = A.begin[j]; b < A.begin[j + 1]; ++b)
+          if (A.columns[b] <= A.columns[a])
+            entries.values[k++] = D[j] * A.values[a] * A.values[b];
+    mumps.factorise(entries.values);
   }
 
-  /** Goes towards the least squares solution on the active columns until it is feasible. */
-  void solve(const double tolerance)
+  void solve(std::vector<double> &right) const
   {
-    for (bool is_feasible = false; !is_feasible;)
-      {
-        const std::vector<double> wanted = least_squares();
-        double                    step   = 1.;
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-          if (wanted[k] <= 0.)
-            step = std::min(step, x[k] <= 0. ? 0. : x[k] / (x[k] - wanted[k]));
-        is_feasible        = true;
-        std::size_t n_kept = 0;
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-          {
-            const double value = x[k] + step * (wanted[k] - x[k]);
-            if (wanted[k] <= 0. && value <= tolerance)
-              {
-                is_feasible      = false;
-                n_orthogonalised = std::min(n_orthogonalised, n_kept);
-              }
-            else
-              {
-                active[n_kept] = active[k];
-                x[n_kept++]    = value;
-              }
-          }
-        active.resize(n_kept);
-        x.resize(n_kept);
-      }
-    update_residual();
-  }
-
-  const std::vector<double> &r() const
-  {
-    return residual;
+    mumps.solve(right);
   }
 
 private:
-  /** Q R of the active columns by Gram and Schmidt, twice, from the first that is new on; columns
-   * without a new direction get Q = 0. */
-  void orthogonalise()
+  /** Of the lower triangle, column by column of A, then the diagonal of I. */
+  static MatrixEntries pattern(const SparseRows &A, const std::size_t n)
   {
-    const std::size_t n = f.size(), m = active.size();
-    Q.resize(m * n);
-    R.resize(m);
-    for (std::size_t k = n_orthogonalised; k < m; ++k)
+    MatrixEntries result;
+    for (std::size_t j = 0; j < A.n_rows(); ++j)
+      for (std::size_t a = A.begin[j]; a < A.begin[j + 1]; ++a)
+        for (std::size_t b = A.begin[j]; b < A.begin[j + 1]; ++b)
+          if (A.columns[b] <= A.columns[a])
+            {
+              result.rows.push_back(A.columns[a]);
+              result.columns.push_back(A.columns[b]);
+            }
+    result.values.assign(result.rows.size(), 0.);
+    for (std::size_t i = 0; i < n; ++i)
       {
-        double *q = &Q[k * n];
-        std::fill_n(q, n, 0.);
-        add(1., columns, active[k], q);
-        R[k].assign(k + 1, 0.);
-        for (std::size_t l = 0; l < 2 * k; ++l)
-          {
-            const double part = dot(&Q[l % k * n], q, n);
-            R[k][l % k] += part;
-            for (std::size_t i = 0; i < n; ++i)
-              q[i] -= part * Q[l % k * n + i];
-          }
-        R[k][k] = std::sqrt(dot(q, q, n));
-        if (R[k][k] < 1e-9)
-          std::fill_n(q, n, 0.);
-        else
-          for (std::size_t i = 0; i < n; ++i)
-            q[i] /= R[k][k];
+        result.rows.push_back(i);
+        result.columns.push_back(i);
+        result.values.push_back(1.);
       }
-    n_orthogonalised = m;
+    return result;
   }
 
-  /** Of sum_k x_k a_k = -f; columns without a new direction get 0. */
-  std::vector<double> least_squares()
+  const SparseRows &A;
+  MatrixEntries     entries;
+  Mumps             mumps;
+};
+
+/** Iterates x > 0 and z > 0 towards z = A^T r, r = f + A x and x_j z_j = 0 for all j. */
+class InteriorPoint
+{
+public:
+  /** Columns and f have unit length. */
+  InteriorPoint(const SparseRows &A, const std::vector<double> &f)
+      : A(A)
+      , f(f)
+      , normal_matrix(A, f.size())
+      , x(A.n_rows(), 1. / A.n_rows())
+      , z(A.n_rows(), 1.)
   {
-    orthogonalise();
-    const std::size_t   n = f.size(), m = active.size();
-    std::vector<double> solution(m);
-    for (std::size_t k = m; k-- > 0;)
-      if (R[k][k] >= 1e-9)
-        {
-          solution[k] = -dot(&Q[k * n], f.data(), n);
-          for (std::size_t l = k + 1; l < m; ++l)
-            solution[k] -= R[l][k] * solution[l];
-          solution[k] /= R[k][k];
-        }
-    return solution;
+    update();
   }
 
-  void update_residual()
+  /** What the largest of x_j z_j, and of the difference of A^T r from z, is. */
+  double defect() const
   {
-    const double before = dot(residual.data(), residual.data(), f.size());
-    residual            = f;
-    for (std::size_t k = 0; k < active.size(); ++k)
-      add(x[k], columns, active[k], residual.data());
-    // A column that brought nothing is not tried again before another one did.
-    if (dot(residual.data(), residual.data(), f.size()) < before * (1. - 1e-12))
-      std::fill(is_tried.begin(), is_tried.end(), 0);
-    for (const std::size_t column : active)
-      is_tried[column] = 1;
+    double result = 0.;
+    for (std::size_t j = 0; j < x.size(); ++j)
+      result = std::max({result, x[j] * z[j], std::abs(dual_defect[j])});
+    return result;
   }
 
-  const SparseRows                &columns;
-  const std::vector<double>       &f;
-  std::vector<double>              residual, x;
-  std::vector<std::size_t>         active;
-  std::vector<char>                is_tried;
-  std::vector<double>              Q; //!< of the active columns, one after the other
-  std::vector<std::vector<double>> R; //!< its columns, to the diagonal
-  std::size_t                      n_orthogonalised = 0;
+  /** A step of Newton, predicted and corrected as by Mehrotra. */
+  void iterate()
+  {
+    const std::size_t   m = x.size();
+    std::vector<double> D(m);
+    for (std::size_t j = 0; j < m; ++j)
+      D[j] = x[j] / z[j];
+    normal_matrix.factorise(D);
+    std::vector<double> wanted(m), dx, dz; // of the changes of x_j z_j
+    for (std::size_t j = 0; j < m; ++j)
+      wanted[j] = -x[j] * z[j];
+    find_step(D, wanted, dx, dz);
+    const double predicted_x = std::min(1., largest_step(x, dx)),
+                 predicted_z = std::min(1., largest_step(z, dz));
+    double gap = 0., predicted_gap = 0.;
+    for (std::size_t j = 0; j < m; ++j)
+      {
+        gap += x[j] * z[j];
+        predicted_gap += (x[j] + predicted_x * dx[j]) * (z[j] + predicted_z * dz[j]);
+      }
+    const double centre = gap / m * std::pow(predicted_gap / gap, 3);
+    for (std::size_t j = 0; j < m; ++j)
+      wanted[j] = centre - x[j] * z[j] - dx[j] * dz[j];
+    find_step(D, wanted, dx, dz);
+    // One length for both, as their equations are coupled by A^T A.
+    constexpr double to_boundary = 0.995;
+    const double     length
+      = std::min(1., to_boundary * std::min(largest_step(x, dx), largest_step(z, dz)));
+    for (std::size_t j = 0; j < m; ++j)
+      {
+        x[j] += length * dx[j];
+        z[j] += length * dz[j];
+      }
+    update();
+  }
+
+  /** r, with x and z taken for zero where they are the smaller one: what f has besides the columns
+   * that press. */
+  std::vector<double> finish()
+  {
+    // Each solution makes what the columns hold smaller by this, and the last bits of the rest
+    // worse.
+    constexpr double       pressing    = 1e7;
+    constexpr unsigned int n_solutions = 3;
+    std::vector<double>    D(x.size());
+    for (std::size_t j = 0; j < x.size(); ++j)
+      D[j] = x[j] > z[j] ? pressing : 0.;
+    normal_matrix.factorise(D);
+    std::vector<double> r = f;
+    for (unsigned int i = 0; i < n_solutions; ++i)
+      normal_matrix.solve(r);
+    return r;
+  }
+
+private:
+  /**
+   * Solves z_j dx_j + x_j dz_j = wanted_j, dz = A^T A dx + dual_defect by w = A dx:
+   * (I + A D A^T) w = A (wanted / z - D dual_defect).
+   */
+  void find_step(const std::vector<double> &D, const std::vector<double> &wanted,
+                 std::vector<double> &dx, std::vector<double> &dz) const
+  {
+    const std::size_t m = x.size();
+    dx.resize(m);
+    for (std::size_t j = 0; j < m; ++j)
+      dx[j] = wanted[j] / z[j] - D[j] * dual_defect[j];
+    std::vector<double> w(f.size());
+    add_product(A, dx, w);
+    normal_matrix.solve(w);
+    dz = transposed_times(A, w);
+    for (std::size_t j = 0; j < m; ++j)
+      {
+        dx[j] -= D[j] * dz[j];
+        dz[j] += dual_defect[j];
+      }
+  }
+
+  /** The longest step that leaves all values positive or zero. */
+  static double largest_step(const std::vector<double> &values, const std::vector<double> &changes)
+  {
+    double result = std::numeric_limits<double>::max();
+    for (std::size_t j = 0; j < values.size(); ++j)
+      if (changes[j] < 0.)
+        result = std::min(result, -values[j] / changes[j]);
+    return result;
+  }
+
+  void update()
+  {
+    residual = f;
+    add_product(A, x, residual);
+    dual_defect = transposed_times(A, residual);
+    for (std::size_t j = 0; j < z.size(); ++j)
+      dual_defect[j] -= z[j];
+  }
+
+  const SparseRows          &A;
+  const std::vector<double> &f;
+  WeightedNormalMatrix       normal_matrix;
+  std::vector<double>        x, z, residual, dual_defect;
 };
 } // namespace
 
 std::vector<double>
 unbalanced_part(const std::vector<double> &f, const SparseRows &reactions)
 {
-  const double tolerance = 1e-10 * std::sqrt(dot(f.data(), f.data(), f.size()));
-  if (tolerance == 0.)
+  constexpr double       tolerance = 1e-14, nearly = 1e-8;
+  constexpr unsigned int max_iterations = 50;
+  const double           length         = std::sqrt(dot(f, f));
+  const SparseRows       A              = directions(reactions);
+  if (length == 0. || A.n_rows() == 0)
     return f;
-  const SparseRows directions = normalised(reactions);
-  ActiveSet        set(directions, f);
-  for (std::size_t change = 0; change < 20 * (f.size() + 10) && set.grow(tolerance); ++change)
-    set.solve(tolerance);
-  return set.r();
+  std::vector<double> unit = f;
+  for (double &value : unit)
+    value /= length;
+  InteriorPoint point(A, unit);
+  double        defect = point.defect(), before = 2. * defect;
+  for (unsigned int i = 0; i < max_iterations && defect > tolerance; ++i)
+    {
+      if (defect < nearly && defect > before)
+        break; // round-off
+      point.iterate();
+      before = std::exchange(defect, point.defect());
+    }
+  std::vector<double> result = point.finish();
+  for (double &value : result)
+    value *= length;
+  return result;
 }
 } // namespace scree
