@@ -132,12 +132,13 @@ public:
     update();
   }
 
-  /** What the largest of x_j z_j, and of the difference of A^T r from z, is. */
+  /** What the largest of sqrt(x_j z_j), and of the difference of A^T r from z, is: a load of that
+   * size may be taken for one that the columns balance, or the reverse. */
   double defect() const
   {
     double result = 0.;
     for (std::size_t j = 0; j < x.size(); ++j)
-      result = std::max({result, x[j] * z[j], std::abs(dual_defect[j])});
+      result = std::max({result, std::sqrt(x[j] * z[j]), std::abs(dual_defect[j])});
     return result;
   }
 
@@ -147,7 +148,7 @@ public:
     const std::size_t   m = x.size();
     std::vector<double> D(m);
     for (std::size_t j = 0; j < m; ++j)
-      D[j] = x[j] / z[j];
+      D[j] = std::min(x[j] / z[j], largest_weight);
     normal_matrix.factorise(D);
     std::vector<double> wanted(m), dx, dz; // of the changes of x_j z_j
     for (std::size_t j = 0; j < m; ++j)
@@ -181,13 +182,18 @@ public:
    * that press. */
   std::vector<double> finish()
   {
-    // Each solution makes what the columns hold smaller by this, and the last bits of the rest
-    // worse.
-    constexpr double       pressing    = 1e7;
-    constexpr unsigned int n_solutions = 3;
-    std::vector<double>    D(x.size());
+    // Each solution makes what the columns hold smaller by about this, and the last bits of the
+    // rest worse.
+    constexpr double       strength    = 1e6;
+    constexpr unsigned int n_solutions = 8;
+    std::vector<double>    diagonal(f.size()), D(x.size()); // of A_p A_p^T, the columns that press
     for (std::size_t j = 0; j < x.size(); ++j)
-      D[j] = x[j] > z[j] ? pressing : 0.;
+      if (x[j] > z[j])
+        for (std::size_t i = A.begin[j]; i < A.begin[j + 1]; ++i)
+          diagonal[A.columns[i]] += A.values[i] * A.values[i];
+    const double largest = *std::max_element(diagonal.begin(), diagonal.end());
+    for (std::size_t j = 0; j < x.size(); ++j)
+      D[j] = x[j] > z[j] ? strength / largest : 0.;
     normal_matrix.factorise(D);
     std::vector<double> r = f;
     for (unsigned int i = 0; i < n_solutions; ++i)
@@ -197,8 +203,8 @@ public:
 
 private:
   /**
-   * Solves z_j dx_j + x_j dz_j = wanted_j, dz = A^T A dx + dual_defect by w = A dx:
-   * (I + A D A^T) w = A (wanted / z - D dual_defect).
+   * Solves dx_j / D_j + dz_j = wanted_j / x_j, dz = A^T A dx + dual_defect by w = A dx:
+   * (I + A D A^T) w = A D (wanted / x - dual_defect).
    */
   void find_step(const std::vector<double> &D, const std::vector<double> &wanted,
                  std::vector<double> &dx, std::vector<double> &dz) const
@@ -206,7 +212,7 @@ private:
     const std::size_t m = x.size();
     dx.resize(m);
     for (std::size_t j = 0; j < m; ++j)
-      dx[j] = wanted[j] / z[j] - D[j] * dual_defect[j];
+      dx[j] = D[j] * (wanted[j] / x[j] - dual_defect[j]);
     std::vector<double> w(f.size());
     add_product(A, dx, w);
     normal_matrix.solve(w);
@@ -237,6 +243,9 @@ private:
       dual_defect[j] -= z[j];
   }
 
+  /** Of D_j = x_j / z_j: more of it would leave no digits of I in I + A D A^T. */
+  static constexpr double largest_weight = 1e10;
+
   const SparseRows          &A;
   const std::vector<double> &f;
   WeightedNormalMatrix       normal_matrix;
@@ -247,7 +256,7 @@ private:
 std::vector<double>
 unbalanced_part(const std::vector<double> &f, const SparseRows &reactions)
 {
-  constexpr double       tolerance = 1e-14, nearly = 1e-8;
+  constexpr double       tolerance = 1e-11, nearly = 1e-8;
   constexpr unsigned int max_iterations = 50;
   const double           length         = std::sqrt(dot(f, f));
   const SparseRows       A              = directions(reactions);

@@ -43,6 +43,7 @@ floor_under_block(const double mu)
       columns.insert(columns.end(), {friction, 1., -0.5 + i / 40. + friction});
   return columns;
 }
+
 /** Forces of a contact on discs of radius 1 at x and on the one below or the floor, as columns: n
  * points up from the lower disc. Coordinates of a disc: x, y, rotation. */
 void
@@ -108,6 +109,27 @@ TEST(ConeProjection, BlockStandsSlidesOrTips)
   const auto slides = push(0.4, 0.3);
   EXPECT_GT(slides[0], 0.01);
   EXPECT_NEAR(slides[2] / slides[0], 0., 0.5);
+}
+
+TEST(ConeProjection, CoordinatesThatNoReactionMovesKeepTheirLoads)
+{
+  // Many reactions in few directions: those that balance all but one load press without limit
+  // against the rest.
+  for (const double push : {0.1, 0.3, 0.49999, 0.50001, 0.6, 10.})
+    for (const double turn : {1e-8, 1e-3, 0.5})
+      {
+        std::vector<double> columns;
+        for (unsigned int i = 0; i < 100; ++i)
+          for (const double friction : {-0.5, 0.5})
+            columns.insert(columns.end(), {friction, 1., 0.});
+        const auto   r         = unbalanced_part({push, -1., turn}, rows_of(columns, 3));
+        const double tolerance = 1e-8 * std::hypot(push, 1.); // |f|
+        EXPECT_NEAR(r[2], turn, tolerance);
+        // to the edge of the cone, (0.5, -1)
+        const double over = std::max(0., push - 0.5) / 1.25;
+        EXPECT_NEAR(r[0], over, tolerance);
+        EXPECT_NEAR(r[1], 0.5 * over, tolerance);
+      }
 }
 
 TEST(ConeProjection, SatisfiesFarkas)
