@@ -364,8 +364,9 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
   if (hooks.is_interrupted && hooks.is_interrupted())
     return End{NewtonStatus::interrupted,
                "interrupted after %u iterations, |r| = %.3e (tolerance %.3e)"};
-  const bool goes_well
-    = residuals.size() > 1 && residuals.back() <= 0.1 * residuals[residuals.size() - 2];
+  const std::size_t n         = residuals.size();
+  const bool        goes_well = (n > 1 && residuals[n - 1] <= 0.1 * residuals[n - 2])
+                         || (n > 2 && residuals[n - 1] <= 0.01 * residuals[n - 3]);
   if (iteration.number >= parameters.max_iterations
       || (iteration.number >= parameters.patience && !goes_well))
     return End{NewtonStatus::max_iterations,

@@ -31,7 +31,8 @@ struct NewtonParameters
   /** Of both methods together. */
   unsigned int max_iterations = 100;
 
-  /** Ends after so many, too, unless the last one brought |r| to a tenth; no entry. */
+  /** Ends after so many, too, unless |r| falls to a tenth in each or a hundredth in two; no entry.
+   */
   unsigned int patience = 0xffffffff;
 
   LineSearch line_search = LineSearch::work;
