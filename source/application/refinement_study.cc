@@ -49,6 +49,22 @@ pair_index(const StudyQuantity<dim> &quantity, const ContactPoints<dim> &contact
   return index_of(quantity.pair, names, quantity.path + "/Pair", "pair in contact");
 }
 
+/** Of the values so far, NaN if there is none, and one more. */
+double
+chosen(const StudyExtreme extreme, const double so_far, const double value)
+{
+  switch (extreme)
+    {
+    case StudyExtreme::maximum:
+      return std::fmax(so_far, value); // a number rather than NaN
+    case StudyExtreme::minimum:
+      return std::fmin(so_far, value);
+    case StudyExtreme::none:
+      break;
+    }
+  return value;
+}
+
 /** Nodal values of the level sets of all bodies. */
 template <int dim>
 double
@@ -100,9 +116,10 @@ RefinementStudy<dim>::require_quantities(const Simulation<dim> &simulation) cons
 {
   for (const auto &quantity : parameters.study.quantities)
     {
-      if (quantity.is_curve())
+      const bool is_of_pair = !quantity.pair.empty();
+      if (is_of_pair)
         pair_index(quantity, simulation.get_model().problem().contact());
-      const auto names = quantity.is_curve() ? contact_columns<dim>() : simulation.columns();
+      const auto names = is_of_pair ? contact_columns<dim>() : simulation.columns();
       index_of(quantity.column, names, quantity.path + "/Column", "column");
     }
 }
@@ -126,19 +143,21 @@ RefinementStudy<dim>::run()
       const std::clock_t start      = std::clock();
       const auto         simulation = set_up(c);
       require_quantities(*simulation);
-      simulation->run();
+      Cycle cycle;
+      cycle.numbers.assign(parameters.study.quantities.size(), unknown);
+      cycle.curves.resize(parameters.study.quantities.size());
+      simulation->run([&]() { note_step(*simulation, cycle); });
       const DiscreteProblem<dim> &problem = simulation->get_model().problem();
-      Cycle                       cycle;
-      cycle.n_cells     = problem.grid.triangulation().n_global_active_cells();
-      cycle.n_unknowns  = problem.space.n_dofs();
-      cycle.finest_edge = problem.grid.finest_size();
+      cycle.n_cells                       = problem.grid.triangulation().n_global_active_cells();
+      cycle.n_unknowns                    = problem.space.n_dofs();
+      cycle.finest_edge                   = problem.grid.finest_size();
       cycle.seconds
         = dealii::Utilities::MPI::sum(double(std::clock() - start) / CLOCKS_PER_SEC, communicator);
       ErrorEstimate estimate; // none on a moving geometry
       if (!problem.is_moving())
         estimate = estimate_error(problem, simulation->get_model().state());
       cycle.error_estimate = estimate.relative;
-      measure(*simulation, cycle);
+      measure_contacts(*simulation, cycle);
       cycles.push_back(cycle);
       if (c + 1 < n_cycles && !choose_next_grid(*simulation, estimate))
         {
@@ -151,21 +170,27 @@ RefinementStudy<dim>::run()
 
 template <int dim>
 void
-RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) const
+RefinementStudy<dim>::note_step(const Simulation<dim> &simulation, Cycle &cycle) const
 {
-  const auto  names = simulation.columns(), contact_names = contact_columns<dim>();
-  const auto  values  = simulation.last_values();
-  const auto &contact = simulation.get_model().problem().contact();
-  for (const auto &quantity : parameters.study.quantities)
+  const auto names = simulation.columns(), values = simulation.last_values();
+  for (unsigned int q = 0; q < cycle.numbers.size(); ++q)
+    if (const StudyQuantity<dim> &quantity = parameters.study.quantities[q]; quantity.pair.empty())
+      cycle.numbers[q]
+        = chosen(quantity.extreme, cycle.numbers[q],
+                 values[index_of(quantity.column, names, quantity.path + "/Column", "column")]);
+}
+
+template <int dim>
+void
+RefinementStudy<dim>::measure_contacts(const Simulation<dim> &simulation, Cycle &cycle) const
+{
+  const auto  contact_names = contact_columns<dim>();
+  const auto &contact       = simulation.get_model().problem().contact();
+  for (unsigned int q = 0; q < cycle.curves.size(); ++q)
     {
-      cycle.curves.emplace_back();
-      cycle.numbers.push_back(unknown);
-      if (!quantity.is_curve())
-        {
-          cycle.numbers.back()
-            = values[index_of(quantity.column, names, quantity.path + "/Column", "column")];
-          continue;
-        }
+      const StudyQuantity<dim> &quantity = parameters.study.quantities[q];
+      if (quantity.pair.empty())
+        continue;
       const Expression<dim> along(quantity.along, 1, quantity.path + "/Along");
       const Expression<dim> formula(quantity.reference.empty() ? "0" : quantity.reference, 1,
                                     quantity.path + "/Reference");
@@ -181,9 +206,11 @@ RefinementStudy<dim>::measure(const Simulation<dim> &simulation, Cycle &cycle) c
               dealii::Point<dim> position;
               for (unsigned int d = 0; d < dim; ++d)
                 position[d] = row[1 + d];
-              cycle.curves.back().push_back(
+              cycle.curves[q].push_back(
                 {along.value(position), row[column], row[weight], formula.value(position)});
             }
+      for (const CurvePoint &point : cycle.curves[q])
+        cycle.numbers[q] = chosen(quantity.extreme, cycle.numbers[q], point.value);
     }
 }
 

@@ -71,7 +71,7 @@ Simulation<dim>::report_set_up()
 
 template <int dim>
 void
-Simulation<dim>::run()
+Simulation<dim>::run(const std::function<void()> &after_step)
 {
   const Interruption interruption(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
   dealii::Timer      wall;
@@ -106,6 +106,8 @@ Simulation<dim>::run()
       n_attempts = 0;
       before.reset();
       finish_step(attempt, wall.wall_time());
+      if (after_step)
+        after_step();
     }
   finish();
 }

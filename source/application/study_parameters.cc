@@ -14,6 +14,10 @@ namespace
 {
 const EnumNames<StudyStrategy> strategy_names
   = {{StudyStrategy::uniform, "uniform"}, {StudyStrategy::adaptive, "adaptive"}};
+
+const EnumNames<StudyExtreme> extreme_names = {{StudyExtreme::none, "none"},
+                                               {StudyExtreme::maximum, "maximum"},
+                                               {StudyExtreme::minimum, "minimum"}};
 } // namespace
 
 template <int dim>
@@ -24,11 +28,15 @@ StudyQuantity<dim>::declare(ParameterSection &section)
   section.entry(
     "Pair", pair,
     "Name of a pair in contact, as block-cylinder: the quantity is a curve, a column of "
-    "its contact table in the last load step; empty: a number.");
+    "its contact table in the last load step, or its Extreme; empty: a number.");
   section.entry(
     "Column", column,
     "Column of history.csv or probes.csv, as block-cylinder.force_y; with Pair a column "
     "of the contact table: pressure, tau_x, gap, ...");
+  section.entry("Extreme", extreme, extreme_names,
+                "none: the value of the last load step, with Pair the curve; maximum, minimum: the "
+                "largest or smallest value of all load steps, with Pair of all contact points in "
+                "the last one, a number. By sign, not by magnitude.");
   section.entry("Reference", reference,
                 "The value to compare with, a formula; for a curve a formula of position x, y, z. "
                 "Empty, and no file: the last cycle.");
@@ -51,7 +59,7 @@ StudyQuantity<dim>::declare(ParameterSection &section)
     return;
   if (!is_curve())
     section.error("Reference file", "only curves are compared with a file",
-                  "set Pair, or give the number as Reference");
+                  "set Pair and no Extreme, or give the number as Reference");
   else
     try
       {

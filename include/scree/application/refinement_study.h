@@ -50,7 +50,7 @@ private:
     unsigned int                         n_cells, n_unknowns;
     double                               finest_edge, seconds, error_estimate;
     std::vector<double>                  numbers; //!< per quantity; unused for curves
-    std::vector<std::vector<CurvePoint>> curves;  //!< per quantity; empty for numbers
+    std::vector<std::vector<CurvePoint>> curves;  //!< per quantity; empty without pair
   };
 
   /** The value of a quantity in a cycle and its error, NaN where there is no reference. */
@@ -61,7 +61,10 @@ private:
 
   std::unique_ptr<Simulation<dim>> set_up(const unsigned int cycle);
   void                             require_quantities(const Simulation<dim> &simulation) const;
-  void                             measure(const Simulation<dim> &simulation, Cycle &cycle) const;
+  /** Takes the numbers of a load step into those of the cycle. */
+  void note_step(const Simulation<dim> &simulation, Cycle &cycle) const;
+  /** Takes what lies along contacts after the last load step. */
+  void measure_contacts(const Simulation<dim> &simulation, Cycle &cycle) const;
   /** Puts the next grid into the parameters; false if no cell is left to divide. */
   bool       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
   Comparison compare(const unsigned int quantity, const unsigned int cycle) const;

@@ -6,6 +6,7 @@
 #include <scree/application/stepper.h>
 #include <scree/output/run_report.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,8 +31,12 @@ public:
              const MPI_Comm communicator, const Checkpoint<dim> *checkpoint = nullptr,
              const StepperFactory<dim> &stepper_of = make_stepper<dim>);
 
-  /** All load steps. @throws UserError if a step cannot be solved. */
-  void run();
+  /**
+   * All load steps.
+   * @param after_step called after each accepted step, when its last_values() are there; or empty
+   * @throws UserError if a step cannot be solved
+   */
+  void run(const std::function<void()> &after_step = {});
 
   /** Reports what was set up and writes it for pictures; computes nothing. */
   void check();

@@ -17,17 +17,30 @@ enum class StudyStrategy
   adaptive
 };
 
+/** What of many values a quantity is. */
+enum class StudyExtreme
+{
+  /** the value of the last load step, or all values along a contact */
+  none,
+  maximum,
+  minimum
+};
+
 /** A reference curve: values over a coordinate, sorted. */
 using Curve = std::vector<std::pair<double, double>>;
 
-/** What a refinement study compares: a number of the last load step, or values along a contact. */
+/**
+ * What a refinement study compares: a number of the last load step or its extreme over all of them,
+ * or values along a contact in the last load step or their extreme.
+ */
 template <int dim>
 struct StudyQuantity
 {
   std::string              name;
   std::string              path;   //!< section path, for messages
-  std::string              pair;   //!< of a contact surface; empty: a number
+  std::string              pair;   //!< of a contact surface; empty: a number of all
   std::string              column; //!< of history.csv or probes.csv, or of the contact table
+  StudyExtreme             extreme   = StudyExtreme::none;
   std::string              reference = ""; //!< formula; empty: none
   std::string              file;           //!< CSV with a reference curve; empty: none
   std::vector<std::string> file_columns;   //!< coordinate and value
@@ -38,7 +51,7 @@ struct StudyQuantity
 
   bool is_curve() const
   {
-    return !pair.empty();
+    return !pair.empty() && extreme == StudyExtreme::none;
   }
 
   /** Whether the last cycle is the reference. */
