@@ -242,8 +242,8 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
       for (unsigned int b = 0; b < current.bodies.size(); ++b)
         if (current.bodies[b].is_rigid())
           current.predictor.rates_of_rigid[b]
-            = {rigid_unknowns(problem().space, b, v), rigid_unknowns(problem().space, b, a),
-               rigid_unknowns(problem().space, b, f)};
+            = {{rigid_unknowns(problem().space, b, v), rigid_unknowns(problem().space, b, a),
+                rigid_unknowns(problem().space, b, f)}};
     }
   record.n_islands  = move_bodies(ghosted);
   current.points    = std::move(points);

@@ -31,6 +31,11 @@ public:
     return shape->is_distance();
   }
 
+  bool has_curvature_jumps() const override
+  {
+    return shape->has_curvature_jumps();
+  }
+
   /** Around the moved corners of the shape's box. */
   dealii::BoundingBox<dim> bounding_box() const override
   {

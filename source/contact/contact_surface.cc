@@ -32,6 +32,7 @@ public:
       , distances(distances)
       , nodal_normals(nodal_normals)
       , is_kinked(has_kinks(a) || has_kinks(b))
+      , overshoots{{overshoots_in(a), overshoots_in(b)}}
       , rules(level_set_nodes.rules())
   {
   }
@@ -49,6 +50,12 @@ private:
     return body.shape && !body.shape->is_smooth();
   }
 
+  /** Whether interpolants of its level set are negative where a flat face begins to bend. */
+  bool overshoots_in(const Body<dim> &body) const
+  {
+    return basis.degree > 1 && body.shape && body.shape->has_curvature_jumps();
+  }
+
   /** grad (phi_a - phi_b) at the nodes of a cell, by cubic interpolation. */
   Gradients nodal_gradients(const GridCell<dim> &cell) const;
 
@@ -64,6 +71,7 @@ private:
   const Body<dim>              &a, &b;
   const ExactDistances<dim>    &distances;
   bool                          nodal_normals, is_kinked;
+  std::array<bool, 2>           overshoots; //!< of a and b
   CutCellRules<dim>             rules;
 };
 
@@ -120,11 +128,12 @@ PairSurface<dim>::points(const unsigned int c, const GridCell<dim> &cell, const 
   for (unsigned int q = 0; q < surface.points.size(); ++q)
     {
       basis.evaluate_values(surface.points[q], shape.data());
-      double                 gap = 0.;
+      double                 distance_of_a = 0., distance_of_b = 0.;
       dealii::Tensor<1, dim> nodal;
       for (unsigned int i = 0; i < basis.n_nodes; ++i)
         {
-          gap += shape[i] * (phi_a[i] + phi_b[i]);
+          distance_of_a += shape[i] * phi_a[i];
+          distance_of_b += shape[i] * phi_b[i];
           nodal += shape[i] * gradients[i];
         }
       // A contour through a vertex leaves points of no length in the cells that touch it.
@@ -132,6 +141,11 @@ PairSurface<dim>::points(const unsigned int c, const GridCell<dim> &cell, const 
         continue;
       const dealii::Point<dim> x
         = cell.lower + cell.size * dealii::Tensor<1, dim>(surface.points[q]);
+      if (overshoots[0] && distances.is_known(pair.a, x))
+        distance_of_a = distances.value(pair.a, x);
+      if (overshoots[1] && distances.is_known(pair.b, x))
+        distance_of_b = distances.value(pair.b, x);
+      const double gap          = distance_of_a + distance_of_b;
       const auto [n, normal_of] = normal(x, cell.size, surface.normals[q], nodal);
       result.push_back({number, x, n, surface.weights[q], gap, cell.size, n, gap});
       result.back().normal_of = normal_of;

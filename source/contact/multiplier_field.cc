@@ -30,8 +30,8 @@ template <int dim>
 NodeKey<dim>
 key_of(const ContactPoint<dim> &point, const dealii::Point<dim> &corner, const unsigned int vertex)
 {
-  NodeKey<dim> key{point.pair, std::llround(1000. * std::log2(point.cell_size)),
-                   main_direction(point.normal)};
+  NodeKey<dim> key{
+    {point.pair, std::llround(1000. * std::log2(point.cell_size)), main_direction(point.normal)}};
   for (unsigned int d = 0; d < dim; ++d)
     key[3 + d] = static_cast<std::int64_t>(corner[d]) + ((vertex >> d) & 1);
   return key;
@@ -43,7 +43,7 @@ NodeKey<dim>
 key_of_own(const ContactPoint<dim> &point, const unsigned int rank, const unsigned int number)
 {
   constexpr std::int64_t no_direction = -1;
-  NodeKey<dim>           key{point.pair, 0, no_direction};
+  NodeKey<dim>           key{{point.pair, 0, no_direction}};
   key[3] = rank;
   key[4] = number;
   return key;

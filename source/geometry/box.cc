@@ -83,6 +83,13 @@ Box<dim>::is_smooth() const
 }
 
 template <int dim>
+bool
+Box<dim>::has_curvature_jumps() const
+{
+  return radius > 0.;
+}
+
+template <int dim>
 void
 Box<dim>::append_pieces(const BoundingBox<dim> &box, std::vector<SmoothPiece<dim>> &pieces) const
 {

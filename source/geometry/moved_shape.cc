@@ -56,6 +56,13 @@ MovedShape<dim>::is_smooth() const
 }
 
 template <int dim>
+bool
+MovedShape<dim>::has_curvature_jumps() const
+{
+  return shape->has_curvature_jumps();
+}
+
+template <int dim>
 void
 MovedShape<dim>::append_pieces(const BoundingBox<dim>        &box,
                                std::vector<SmoothPiece<dim>> &pieces) const

@@ -75,6 +75,9 @@ vertices_of(const ShapeParameters<dim> &p)
 {
   const std::string    &file     = p.text("Vertices file");
   std::vector<Point<2>> vertices = file.empty() ? p.vertices("Vertices") : vertices_of_file(file);
+  if (const double scale = p.number("Scale"); !std::isnan(scale))
+    for (Point<2> &vertex : vertices)
+      vertex *= scale;
   if (vertices.size() > 1 && vertices.front() == vertices.back())
     vertices.pop_back();
   return vertices;
@@ -95,6 +98,8 @@ check_polygon(const ShapeParameters<dim> &p, const ParameterSection &section)
                            ? "Type = polygon needs the entry 'Vertices' or 'Vertices file'"
                            : "both Vertices and a file of them are given",
                          "set one of them");
+  if (file.empty() && !std::isnan(p.number("Scale")))
+    section.error("Scale", "is of a file, but there is no Vertices file", "scale the Vertices");
   if (!file.empty()
       && !declare_checksum(
         section, file, read_bytes(file, largest_vertices_file, file, "check the path", "vertices")))
@@ -154,7 +159,8 @@ Polygon::family()
            {"Vertices file", "File (CSV) with a corner per line in place of Vertices", "",
             std::string(), false, false, true},
            corner_radius(),
-           checksum_entry()},
+           checksum_entry(),
+           scale_of_file()},
           make_polygon<dim>,
           check_polygon_or_tell<dim>};
 }

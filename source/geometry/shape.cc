@@ -21,6 +21,13 @@ Shape<dim>::is_claimed_distance() const
 
 template <int dim>
 bool
+Shape<dim>::has_curvature_jumps() const
+{
+  return false;
+}
+
+template <int dim>
+bool
 Shape<dim>::is_smooth() const
 {
   return true;

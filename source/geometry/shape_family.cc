@@ -34,6 +34,13 @@ corner_radius()
 }
 
 ShapeEntry
+scale_of_file()
+{
+  return {"Scale", "Factor of the coordinates of the file; unset: 1", "", unset_number, true,
+          false};
+}
+
+ShapeEntry
 semi_axes_entry()
 {
   return {"Semi-axes", "Half the widths of % along x, y (and z)", "[length]", std::vector<double>(),

@@ -50,8 +50,8 @@ struct Sums
 {
   dealii::Point<dim>              origin;
   double                          volume = 0.;
-  dealii::Tensor<1, dim>          first;
-  dealii::SymmetricTensor<2, dim> second;
+  dealii::Tensor<1, dim>          first  = {};
+  dealii::SymmetricTensor<2, dim> second = {};
 
   /** A part of a cube. */
   void add(const dealii::Point<dim> &centre, const double size, const double part)

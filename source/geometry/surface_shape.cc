@@ -146,15 +146,14 @@ template <int dim>
 ShapeFamily<dim>
 surface_family()
 {
-  ShapeFamily<dim> family{
-    {"surface"},
-    dim == 2 ? "surface (3D, or a plane section of it in 2D)" : "surface",
-    {{"File", "File of a closed surface of triangles, STL or OBJ", "", std::string(), false, true,
-      true},
-     checksum_entry(),
-     {"Scale", "Factor of the coordinates of the file; unset: 1", "", unset_number, true, false}},
-    make_surface<dim>,
-    check_surface<dim>};
+  ShapeFamily<dim> family{{"surface"},
+                          dim == 2 ? "surface (3D, or a plane section of it in 2D)" : "surface",
+                          {{"File", "File of a closed surface of triangles, STL or OBJ", "",
+                            std::string(), false, true, true},
+                           checksum_entry(),
+                           scale_of_file()},
+                          make_surface<dim>,
+                          check_surface<dim>};
   if (dim == 2)
     family.entries.push_back(
       {"Section plane",

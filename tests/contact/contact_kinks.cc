@@ -72,6 +72,31 @@ TEST(ContactNormals, OfSmoothLatticesAreOfThirdOrder)
     }
 }
 
+TEST(ContactGaps, FlatFacesThatGoOverIntoArcsDoNotOverlapTheirFloor)
+{
+  const std::vector<std::string> shapes
+    = {"set Lower corner = -0.43, -0.2\nset Upper corner = 0.37, 0.5\nset Corner radius = 0.1",
+       "set First point = -0.31, 0.05\nset Second point = 0.29, 0.05\nset Radius = 0.25",
+       "set Vertices = -0.4,-0.2; 0.4,-0.2; 0,0.5\nset Corner radius = 0.1"};
+  const std::vector<std::string> types = {"box", "capsule", "polygon"};
+  for (const unsigned int level : {3, 4})
+    for (unsigned int i = 0; i < shapes.size(); ++i)
+      {
+        const CutBodies<2> model(grid_text("-1, -1", "1, 1", "2, 2", level) + degree_text(2)
+                                 + bodies_text({{"floor", half_space_text("0, -0.2", "0, 1")},
+                                                {"body", shape_text(types[i], shapes[i])}}));
+        const auto         contact = contact_points(model);
+        double             flat    = 0.;
+        for (const auto &point : contact.points())
+          {
+            EXPECT_GE(point.initial_gap, -1e-12) << types[i] << " at " << point.position;
+            if (point.initial_gap < 1e-12)
+              flat += point.weight;
+          }
+        EXPECT_GT(flat, 0.3) << types[i];
+      }
+}
+
 /** A box on a floor at z = -0.2, its corner somewhere in a cell. */
 template <int dim>
 std::string

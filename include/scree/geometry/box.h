@@ -19,6 +19,7 @@ public:
   dealii::BoundingBox<dim> bounding_box() const override;
 
   bool is_smooth() const override;
+  bool has_curvature_jumps() const override;
 
   void append_pieces(const dealii::BoundingBox<dim> &box,
                      std::vector<SmoothPiece<dim>>  &pieces) const override;

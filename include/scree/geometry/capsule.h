@@ -17,6 +17,11 @@ public:
 
   dealii::BoundingBox<dim> bounding_box() const override;
 
+  bool has_curvature_jumps() const override
+  {
+    return true;
+  }
+
 private:
   dealii::Point<dim> first, second;
   double             radius;

@@ -22,6 +22,11 @@ public:
 
   dealii::BoundingBox<2> bounding_box() const override;
 
+  bool has_curvature_jumps() const override
+  {
+    return true;
+  }
+
   /** Which side is too short for the arcs at its ends, or that they meet other sides; empty if they
    * fit. */
   static std::string what_does_not_fit(const std::vector<dealii::Point<2>> &vertices,

@@ -35,6 +35,10 @@ public:
   /** Whether the boundary is a single piece without kinks: that of signed_distance(). */
   virtual bool is_smooth() const;
 
+  /** Whether flat parts of a smooth boundary go over into arcs, where interpolants of degree 2
+   * overshoot. */
+  virtual bool has_curvature_jumps() const;
+
   /**
    * Appends the smooth pieces of the boundary that may pass through the closed `box`: where none
    * does, the box is inside or outside as a whole. Parts of them may not belong to the boundary.

@@ -39,6 +39,9 @@ ShapeEntry checksum_entry();
 /** The radius of corners, which are sharp where it is not set. */
 ShapeEntry corner_radius();
 
+/** The entry of the factor of what a file has; not a number without one. */
+ShapeEntry scale_of_file();
+
 /** Positive half widths along the axes. */
 ShapeEntry semi_axes_entry();
 
