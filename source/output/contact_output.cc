@@ -82,7 +82,6 @@ ContactSummary<dim>::merge(const ContactSummary &other)
 {
   force += other.force;
   moment += other.moment;
-  moved_moment += other.moved_moment;
   virial_a += other.virial_a;
   virial_b += other.virial_b;
   strength += other.strength;
@@ -148,8 +147,6 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
       const dealii::Tensor<1, dim> force    = point.weight * response.traction(point.normal);
       summary.force += force;
       summary.moment += moment_of<dim>(point.position, force);
-      summary.moved_moment
-        += moment_of<dim>(point.position + contact.mean_displacements()[i], force);
       add_place(contact, i, force, geometry_is_moving, summary);
       // Slivers of the surface carry nothing and would decide which extreme is sampled.
       if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1)

@@ -6,12 +6,13 @@
 namespace scree
 {
 template <int dim>
-dealii::Tensor<1, 3>
-moment_about(const dealii::Point<dim> &centre, const ContactSummary<dim> &summary,
-             const bool geometry_is_moving)
+std::array<dealii::Tensor<1, 3>, 2>
+contact_moments(const ContactPair &pair, const ContactSummary<dim> &summary,
+                const std::vector<GrainState<dim>> &grains)
 {
-  return (geometry_is_moving ? summary.moved_moment : summary.moment)
-         - moment_of<dim>(centre, summary.force);
+  return {
+    {moment_of<dim>(grains[pair.a].centroid, summary.force) - moment_of<dim>(summary.virial_a),
+     moment_of<dim>(summary.virial_b) - moment_of<dim>(grains[pair.b].centroid, summary.force)}};
 }
 
 template <int dim>
@@ -31,11 +32,12 @@ namespace
 /** Adds a contact to the state of a body, with the forces on it. */
 template <int dim>
 void
-add_contact(const ContactSummary<dim> &summary, const double sign, const bool geometry_is_moving,
-            const dealii::Tensor<2, dim> &virial, GrainState<dim> &state, BodyStress<dim> &stress)
+add_contact(const ContactSummary<dim> &summary, const double sign,
+            const dealii::Tensor<1, 3> &moment, const dealii::Tensor<2, dim> &virial,
+            GrainState<dim> &state, BodyStress<dim> &stress)
 {
   state.contact.force += sign * summary.force;
-  state.contact.moment += sign * moment_about(state.centroid, summary, geometry_is_moving);
+  state.contact.moment += moment;
   state.n_contacts += summary.is_closed();
   stress.force += sign * summary.force;
   stress.virial += sign * virial;
@@ -85,24 +87,25 @@ grain_states(const std::vector<Body<dim>> &bodies, const std::vector<ContactPair
     {
       const auto &[a, b]  = std::tie(pairs[p].a, pairs[p].b);
       const auto &summary = summaries[p];
-      add_contact(summary, -1., geometry_is_moving, summary.virial_a, result[a], all[a]);
-      add_contact(summary, 1., geometry_is_moving, summary.virial_b, result[b], all[b]);
+      const auto  moments = contact_moments(pairs[p], summary, result);
+      add_contact(summary, -1., moments[0], summary.virial_a, result[a], all[a]);
+      add_contact(summary, 1., moments[1], summary.virial_b, result[b], all[b]);
     }
   for (unsigned int b = 0; b < bodies.size(); ++b)
     set_stresses(bodies[b], all[b], result[b]);
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                          \
-  template struct GrainState<dim>;                                                                      \
-  template dealii::Tensor<1, dim>       branch_vector(const std::vector<Body<dim>> &,                   \
-                                                      const ContactPair &, const ContactSummary<dim> &, \
-                                                      const std::vector<GrainState<dim>> &);            \
-  template dealii::Tensor<1, 3>         moment_about(const dealii::Point<dim> &,                        \
-                                                     const ContactSummary<dim> &, const bool);          \
-  template std::vector<GrainState<dim>> grain_states(                                                   \
-    const std::vector<Body<dim>> &, const std::vector<ContactPair> &,                                   \
-    const std::vector<ContactSummary<dim>> &, const std::vector<MeanMotion<dim>> &,                     \
+#define SCREE_INSTANTIATE(dim)                                                                                 \
+  template struct GrainState<dim>;                                                                             \
+  template dealii::Tensor<1, dim>              branch_vector(const std::vector<Body<dim>> &,                   \
+                                                             const ContactPair &, const ContactSummary<dim> &, \
+                                                             const std::vector<GrainState<dim>> &);            \
+  template std::array<dealii::Tensor<1, 3>, 2> contact_moments(                                                \
+    const ContactPair &, const ContactSummary<dim> &, const std::vector<GrainState<dim>> &);                   \
+  template std::vector<GrainState<dim>> grain_states(                                                          \
+    const std::vector<Body<dim>> &, const std::vector<ContactPair> &,                                          \
+    const std::vector<ContactSummary<dim>> &, const std::vector<MeanMotion<dim>> &,                            \
     const std::vector<BodyStress<dim>> &, const bool);
 
 SCREE_INSTANTIATE(2)

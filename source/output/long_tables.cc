@@ -128,8 +128,8 @@ LongTables<dim>::add_contact(const StepRecord &record, const ContactPair &pair,
         summary.stick + summary.slip, summary.max_pressure, summary.open_points,
         summary.stick_points, summary.slip_points})
     row.push_back(CsvTable::word(value));
-  add_axial<dim>(-moment_about(grains[pair.a].centroid, summary, is_moving), row);
-  add_axial<dim>(moment_about(grains[pair.b].centroid, summary, is_moving), row);
+  for (const dealii::Tensor<1, 3> &moment : contact_moments(pair, summary, grains))
+    add_axial<dim>(moment, row);
   add_vector<dim>(summary.place(), row);
   add_vector<dim>(summary.normal(), row);
   row.push_back(CsvTable::word(summary.normal_force()));

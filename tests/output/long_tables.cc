@@ -181,7 +181,6 @@ write_step(LongTables<2> &tables, const std::vector<Body<2>> &bodies, const unsi
   if (is_closed)
     {
       summary.force        = Tensor<1, 2>({3., 1.});
-      summary.moved_moment = moment_of<2>(Point<2>(1., 0.), summary.force);
       summary.moment       = moment_of<2>(Point<2>(0.5, 0.), summary.force);
       summary.stick_points = 2.;
       summary.virial_a     = outer_product(summary.force, Tensor<1, 2>({1., 0.}));

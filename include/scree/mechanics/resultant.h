@@ -27,4 +27,8 @@ void sum_over_processes(std::vector<Resultant<dim>> &resultants, const MPI_Comm 
 template <int dim>
 dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, dim> &position,
                                const dealii::Tensor<1, dim> &force);
+
+/** Moment about the origin of forces f at places x with the sum f x^T. */
+template <int dim>
+dealii::Tensor<1, 3> moment_of(const dealii::Tensor<2, dim> &virial);
 } // namespace scree

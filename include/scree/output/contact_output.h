@@ -14,7 +14,6 @@ struct ContactSummary
 {
   dealii::Tensor<1, dim> force;  //!< on body b
   dealii::Tensor<1, 3>   moment; //!< of that force about the origin; 2D: only the last component
-  dealii::Tensor<1, 3>   moved_moment; //!< the same with the points where the surface has moved to
   /** Sums f x^T of the forces f on b at the sides of a and b, where their displacements are taken.
    */
   dealii::Tensor<2, dim> virial_a, virial_b;
@@ -63,9 +62,9 @@ struct ContactSummary
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &force &moment &moved_moment &minimum_gap &where &max_penetration &max_pressure;
-    archive &virial_a &virial_b &strength &placed                             &directed;
-    archive &open &stick &slip &open_points &stick_points                     &slip_points;
+    archive &force &moment &minimum_gap &where &max_penetration &max_pressure;
+    archive &virial_a &virial_b &strength &placed               &directed;
+    archive &open &stick &slip &open_points &stick_points       &slip_points;
   }
 };
 

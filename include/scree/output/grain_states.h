@@ -5,6 +5,7 @@
 #include <scree/output/contact_output.h>
 #include <scree/output/mean_motion.h>
 
+#include <array>
 #include <vector>
 
 namespace scree
@@ -46,9 +47,10 @@ dealii::Tensor<1, dim> branch_vector(const std::vector<Body<dim>> &bodies, const
                                      const ContactSummary<dim>          &summary,
                                      const std::vector<GrainState<dim>> &grains);
 
-/** Moment of a contact on its body b about a point, with places as the summary has them. */
+/** Moments of a contact on its bodies a and b about their centroids, of the forces at their sides.
+ */
 template <int dim>
-dealii::Tensor<1, 3> moment_about(const dealii::Point<dim>  &centre,
-                                  const ContactSummary<dim> &summary,
-                                  const bool                 geometry_is_moving);
+std::array<dealii::Tensor<1, 3>, 2> contact_moments(const ContactPair                  &pair,
+                                                    const ContactSummary<dim>          &summary,
+                                                    const std::vector<GrainState<dim>> &grains);
 } // namespace scree
