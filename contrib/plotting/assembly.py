@@ -11,11 +11,13 @@ from .style import COLOURS, RIGID, figure_for, save, short
 
 GRAIN = "#eef0f2"
 WIDEST = 7.0  # points, of the largest force
+FEWEST = 3    # grains; fewer are no packing
 
 
 def draw(run, step):
-    """Writes chains.png and rose.png of 2D (NAME_NNNN.png for a step asked for) and assembly.png; their paths."""
-    if not (run.directory / "assembly.csv").exists():
+    """Writes chains.png and rose.png of 2D (NAME_NNNN.png for a step asked for) and assembly.png of a packing; their paths."""
+    table = run.directory / "assembly.csv"
+    if not table.exists() or read_table(table)["grains"].max(initial=0) < FEWEST:
         return []
     pictures = []
     if run.dimension == 2 and run.body_files:
