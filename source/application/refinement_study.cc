@@ -21,6 +21,9 @@ namespace
 {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/** Relative errors below it, as of equilibrium, have no order. */
+constexpr double round_off = 1e-7;
+
 /** Level sets are dense: a grid must not need more nodal values than this (1.5 GB at set-up). */
 constexpr double most_level_set_values = 1e8;
 
@@ -236,8 +239,9 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
   else
     {
       const auto marked = largest_share(estimate.squares, parameters.study.share, communicator);
-      const auto in_contact
-        = cells_around(model.state().was_closed, model.problem().contact(), grid);
+      // Finest cells around contact as many as by section Grid, when they are divided.
+      const auto   in_contact = cells_around(model.state().was_closed, model.problem().contact(),
+                                             grid, 0.5 * parameters.grid.band);
       unsigned int level_of_contact = 0;
       for (unsigned int c = 0; c < levels.size(); ++c)
         if (in_contact[c])
@@ -329,8 +333,10 @@ RefinementStudy<dim>::write_table()
           const Comparison present = compare(q, c);
           double           order   = unknown;
           if (c > 0 && cycle.n_unknowns != cycles[c - 1].n_unknowns)
-            order = dim * std::log(compare(q, c - 1).error / present.error)
-                    / std::log(double(cycle.n_unknowns) / cycles[c - 1].n_unknowns);
+            if (const double before = compare(q, c - 1).error;
+                before > round_off && present.error > round_off)
+              order = dim * std::log(before / present.error)
+                      / std::log(double(cycle.n_unknowns) / cycles[c - 1].n_unknowns);
           rows.back().insert(rows.back().end(), {present.value, present.error, order});
         }
     }

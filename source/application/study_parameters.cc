@@ -77,9 +77,10 @@ StudyParameters<dim>::declare(ParameterSection &section, const GridParameters<di
 {
   section.entry("Cycles", n_cycles, dealii::Patterns::Integer(1, 20),
                 "Number of runs, each on a finer grid than the one before; 1: no study.");
-  section.entry("Strategy", strategy, strategy_names,
-                "uniform: every cell is divided; adaptive: cells of large estimated error are "
-                "divided, and the cells in contact get one level more.");
+  section.entry(
+    "Strategy", strategy, strategy_names,
+    "uniform: every cell is divided; adaptive: cells of large estimated error are "
+    "divided, and the cells in contact and Grid/Band cells around them get one level more.");
   section.entry("Marked share", share, dealii::Patterns::Double(0., 1.),
                 "adaptive: the cells that are divided hold this share of the squared error; no "
                 "dimension.");

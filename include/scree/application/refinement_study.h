@@ -20,7 +20,7 @@ namespace scree
  * The error of a number v is |v - r|/|r|, that of a curve sqrt(int (v - r)^2 / int r^2) over the
  * contact surface, absolute if r = 0; NAME of a curve is sqrt(int v^2). The order is dim times the
  * slope of the error over the number N of unknowns, dim log(e_i/e_{i-1})/log(N_{i-1}/N_i): that of
- * the cell size on uniform grids.
+ * the cell size on uniform grids; errors of round-off have none.
  */
 template <int dim>
 class RefinementStudy

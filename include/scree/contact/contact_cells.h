@@ -7,10 +7,10 @@
 namespace scree
 {
 /**
- * Owned grid cells around marked contact points of any process: those that hold the corners of a
- * cell centred at the point (collective).
+ * Owned grid cells around marked contact points of any process: those of a cube centred at the
+ * point, of an edge of 2 reach cells of the point's size (collective).
  */
 template <int dim>
 std::vector<bool> cells_around(const std::vector<bool> &marked, const ContactPoints<dim> &contact,
-                               const BackgroundGrid<dim> &grid);
+                               const BackgroundGrid<dim> &grid, const double reach);
 } // namespace scree
