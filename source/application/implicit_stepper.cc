@@ -157,6 +157,7 @@ ImplicitStepper<dim>::attempt()
     {
       report.meetings(problem, parameters.contact, u);
       warn_of_rotations(problem, balances, u, time, run_log);
+      warn_of_large_strains(problem, balances, time, run_log);
     }
   model.accept(u, time, rates);
   attempt.outcome = Attempt<dim>::Outcome::accepted;

@@ -301,7 +301,7 @@ Simulation<dim>::finish()
   require(results.flush(), directory,
           "rows of history.csv or other tables could not be written to the last",
           "make room on the disk and go on with scree --resume " + directory);
-  report.end(step_control.n_rejected(), saver.n_saved(), saver.bytes(), directory);
+  report.end(model.problem(), step_control.n_rejected(), saver.n_saved(), saver.bytes(), directory);
 }
 
 template <int dim>

@@ -117,8 +117,10 @@ declare_law(ContactPairParameters &parameters, const ParameterSection &section)
 void
 ContactPairParameters::declare(ParameterSection &section)
 {
-  section.entry("Bodies", bodies,
-                "Two names of bodies, in any order; * stands for any text: a default is '*, *'.");
+  section.entry(
+    "Bodies", bodies,
+    "Two names of bodies, in any order; * stands for any text: a default is '*, *'. Two "
+    "rigid bodies of prescribed motions pass through each other.");
   declare_law(*this, section);
   // Softer ones let bodies through one another, stiffer ones leave no digits to the stresses.
   const dealii::Patterns::Double penalty_factor(0.01, 1e6);

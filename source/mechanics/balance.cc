@@ -20,8 +20,8 @@ struct NodeSums
 {
   double                 n = 0.;
   dealii::Tensor<1, dim> x, u, force; //!< x relative to the centre of the body's box
-  dealii::Tensor<2, dim> x_x;         //!< sum of x x^T
-  dealii::Tensor<1, 3>   x_u, moment; //!< sums of x cross u, x cross f; moment about the origin
+  dealii::Tensor<2, dim> x_x, u_x;    //!< sums of x x^T and u x^T
+  dealii::Tensor<1, 3>   moment;      //!< sum of x cross f about the origin
   double                 scale = 0.;
 };
 
@@ -36,11 +36,19 @@ sum_over_processes(std::vector<NodeSums<dim>> &sums, const MPI_Comm communicator
       joint.add(sum.scale);
       for (auto *vector : {&sum.x, &sum.u, &sum.force})
         joint.add(*vector);
-      joint.add(sum.x_x);
-      for (auto *vector : {&sum.x_u, &sum.moment})
-        joint.add(*vector);
+      for (auto *tensor : {&sum.x_x, &sum.u_x})
+        joint.add(*tensor);
+      joint.add(sum.moment);
     }
   joint.reduce(communicator);
+}
+
+/** The sum of (x - mean)(x - mean)^T. */
+template <int dim>
+dealii::Tensor<2, dim>
+spread_of(const NodeSums<dim> &sums)
+{
+  return sums.x_x - dealii::outer_product(sums.x / sums.n, sums.x);
 }
 
 /** |omega| of the u = a + omega cross x that fits best at the nodes. */
@@ -49,8 +57,8 @@ double
 rotation_of(const NodeSums<dim> &sums)
 {
   const dealii::Tensor<1, dim> mean    = sums.x / sums.n;
-  const dealii::Tensor<1, 3>   angular = sums.x_u - moment_of<dim>(mean, sums.u);
-  const dealii::Tensor<2, dim> C       = sums.x_x - dealii::outer_product(mean, sums.x);
+  const dealii::Tensor<1, 3>   angular = moment_of<dim>(sums.u_x) - moment_of<dim>(mean, sums.u);
+  const dealii::Tensor<2, dim> C       = spread_of(sums);
   if constexpr (dim == 2)
     return std::abs(angular[2]) / trace(C);
   else
@@ -60,6 +68,20 @@ rotation_of(const NodeSums<dim> &sums)
         inertia[d][d] += trace(C);
       return (invert(inertia) * angular).norm();
     }
+}
+
+/** |sym G| of the u = a + G x that fits best at the nodes; zero if these are all in a plane. */
+template <int dim>
+double
+strain_of(const NodeSums<dim> &sums)
+{
+  constexpr double             flat = 1e-6;
+  const dealii::Tensor<2, dim> C    = spread_of(sums);
+  if (!(determinant(C) > flat * std::pow(trace(C), dim)))
+    return 0.;
+  const dealii::Tensor<2, dim> G
+    = (sums.u_x - dealii::outer_product(sums.u, sums.x / sums.n)) * invert(C);
+  return symmetrize(G).norm();
 }
 
 /** Of the nodes of each body on this process, with the forces at them. */
@@ -85,7 +107,7 @@ node_sums(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bod
     sum.x += x;
     sum.u += displacement;
     sum.x_x += dealii::outer_product(x, x);
-    sum.x_u += moment_of<dim>(dealii::Point<dim>(x), displacement);
+    sum.u_x += dealii::outer_product(displacement, x);
     sum.force += contact_force + body_force;
     sum.moment += moment_of<dim>(position, contact_force + body_force);
     sum.scale += contact_force.norm() + body_force.norm();
@@ -108,6 +130,7 @@ balance_of(const NodeSums<dim> &sum, const Body<dim> &body, const unsigned int n
   result.n_nodes     = sum.n;
   result.radius      = std::sqrt(trace(sum.x_x) / sum.n - mean.norm_square());
   result.rotation    = rotation_of(sum);
+  result.strain      = strain_of(sum);
   return result;
 }
 } // namespace

@@ -235,6 +235,22 @@ warn_of_rotations(const DiscreteProblem<dim>              &problem,
     }
 }
 
+template <int dim>
+void
+warn_of_large_strains(const DiscreteProblem<dim>          &problem,
+                      const std::vector<BodyBalance<dim>> &balances, const double time,
+                      RunLog &run_log)
+{
+  constexpr double largest_strain = 0.05;
+  for (const BodyBalance<dim> &balance : balances)
+    if (balance.strain > largest_strain && run_log.warnings.is_new(Warning::strained, balance.body))
+      run_log.log.line("Warning: the body " + problem.bodies[balance.body].name
+                       + " has a mean strain of " + short_number(100. * balance.strain)
+                       + " % at time " + short_number(time)
+                       + ". On a fixed geometry strains are taken as small: set Moving "
+                         "geometry/Update = every step");
+}
+
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template std::vector<BodyBalance<dim>> require_balance(                                          \
     const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &, const NewtonParameters &,      \
@@ -244,7 +260,9 @@ warn_of_rotations(const DiscreteProblem<dim>              &problem,
                                         const double);                                             \
   template void warn_of_rotations(const DiscreteProblem<dim> &,                                    \
                                   const std::vector<BodyBalance<dim>> &,                           \
-                                  const Equilibrium<dim>::Vector &, const double, RunLog &);
+                                  const Equilibrium<dim>::Vector &, const double, RunLog &);       \
+  template void warn_of_large_strains(                                                             \
+    const DiscreteProblem<dim> &, const std::vector<BodyBalance<dim>> &, const double, RunLog &);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

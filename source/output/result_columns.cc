@@ -16,7 +16,8 @@ pair_columns(const std::vector<ContactPair> &pairs)
   for (const ContactPair &pair : pairs)
     {
       add_resultant_names<dim>(pair.name, names);
-      for (const std::string column : {"minimum_gap", "max_penetration", "open", "stick", "slip"})
+      for (const std::string column :
+           {"minimum_gap", "max_penetration", "max_pressure", "open", "stick", "slip"})
         names.push_back(pair.name + "." + column);
     }
   return names;

@@ -104,8 +104,8 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
     {
       const auto &summary = summaries[p];
       add_resultant<dim>(summary.force, summary.moment, values);
-      for (const double value : {summary.minimum_gap, summary.max_penetration, summary.open,
-                                 summary.stick, summary.slip})
+      for (const double value : {summary.minimum_gap, summary.max_penetration, summary.max_pressure,
+                                 summary.open, summary.stick, summary.slip})
         values.push_back(value);
     }
   for (const auto &resultant : equilibrium.resultants(u))

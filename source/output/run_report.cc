@@ -170,6 +170,7 @@ RunReport<dim>::step(const StepRecord &record, const ContactPoints<dim> &contact
       numbers.open += summary.open;
       numbers.stick += summary.stick;
       numbers.slip += summary.slip;
+      has_touched |= summary.is_closed();
     }
   run_log.log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time)
                    + ": " + std::to_string(record.newton_iterations) + " iterations, residual "
@@ -256,10 +257,34 @@ RunReport<dim>::failure(const StepRecord &record, const NewtonResult &result,
 
 template <int dim>
 void
-RunReport<dim>::end(const unsigned int n_rejected, const unsigned int n_checkpoints,
-                    const std::size_t checkpoint_bytes, const std::string &directory)
+RunReport<dim>::nothing_touched(const DiscreteProblem<dim> &problem)
+{
+  const ContactPoints<dim> &contact = problem.contact();
+  double                    gap     = std::numeric_limits<double>::infinity();
+  std::string               nearest;
+  const auto                summaries = summarise_contact(contact, problem.communicator());
+  for (unsigned int p = 0; p < summaries.size(); ++p)
+    if (summaries[p].minimum_gap < gap)
+      {
+        gap     = summaries[p].minimum_gap;
+        nearest = contact.pairs()[p].name;
+      }
+  run_log.log.line(
+    "Warning: no bodies touched in any step"
+    + (nearest.empty()
+         ? std::string(": all are farther apart than twice Contact/Shift")
+         : "; the smallest gap at the end is " + short_number(gap) + ", of " + nearest));
+}
+
+template <int dim>
+void
+RunReport<dim>::end(const DiscreteProblem<dim> &problem, const unsigned int n_rejected,
+                    const unsigned int n_checkpoints, const std::size_t checkpoint_bytes,
+                    const std::string &directory)
 {
   Log &log = run_log.log;
+  if (problem.bodies.size() > 1 && !has_touched)
+    nothing_touched(problem);
   log.line("Wall time by part:");
   for (const auto &[name, seconds] : run_log.timings.parts())
     log.line("  " + name + ": " + short_number(seconds) + " s");

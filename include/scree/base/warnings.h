@@ -15,6 +15,7 @@ enum class Warning : unsigned int
   badly_held,     // contact at few points hardly holds it against turning
   loose,          // nothing holds it
   turned,         // too far for linear kinematics
+  strained,       // too much for them
   under_resolved, // contact at very few points
   may_have_met    // without contact points
 };

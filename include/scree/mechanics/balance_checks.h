@@ -57,4 +57,15 @@ void warn_of_rotations(const DiscreteProblem<dim>              &problem,
                        const std::vector<BodyBalance<dim>>     &balances,
                        const typename Equilibrium<dim>::Vector &u, const double time,
                        RunLog &run_log);
+
+/**
+ * On a fixed geometry: warns of each body whose mean strain, above 5 %, is too large for linear
+ * kinematics.
+ *
+ * @param balances of require_balance()
+ */
+template <int dim>
+void warn_of_large_strains(const DiscreteProblem<dim>          &problem,
+                           const std::vector<BodyBalance<dim>> &balances, const double time,
+                           RunLog &run_log);
 } // namespace scree

@@ -20,6 +20,7 @@ struct BodyBalance
   double                 radius      = 0.; //!< of gyration of the nodes [L]
   double                 n_nodes     = 0.;
   double                 rotation    = 0.; //!< angle of the rotation that fits u best
+  double                 strain      = 0.; //!< norm of that of the linear u that fits best
   double                 largest_u   = 0.; //!< largest |u|
 };
 } // namespace scree

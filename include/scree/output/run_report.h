@@ -47,16 +47,19 @@ public:
                const ContactPoints<dim> &contact, const StatusChanges &changes,
                const MPI_Comm communicator);
 
-  /** Wall times by part. @param checkpoint_bytes of the last one */
-  void end(const unsigned int n_rejected, const unsigned int n_checkpoints,
-           const std::size_t checkpoint_bytes, const std::string &directory);
+  /** Wall times by part; tells if no bodies touched. @param checkpoint_bytes of the last one */
+  void end(const DiscreteProblem<dim> &problem, const unsigned int n_rejected,
+           const unsigned int n_checkpoints, const std::size_t checkpoint_bytes,
+           const std::string &directory);
 
 private:
   void body(const DiscreteProblem<dim> &problem, const unsigned int body, const double volume);
   void contacts(const DiscreteProblem<dim> &problem, const bool has_many);
   void free_bodies(const DiscreteProblem<dim> &problem);
+  void nothing_touched(const DiscreteProblem<dim> &problem);
 
   RunLog &run_log;
+  bool    has_touched = false; //!< any pair in any step
 };
 
 /** Makes pictures of a directory of results by contrib/plot, where it is installed. */
