@@ -8,6 +8,7 @@ from .style import COLOURS, save, short
 
 MAX_PANELS = 6
 MAX_CURVES = 12
+JUMP = 6.0  # of points along a surface, in median distances: another piece of it begins
 
 
 def position_along(table):
@@ -29,20 +30,34 @@ def position_along(table):
 
 
 def arc_length(points):
-    """Arc length of scattered points of a curve, each joined to the nearest one not yet visited."""
-    n = len(points)
-    left = np.ones(n, dtype=bool)
-    current = int(np.argmin(points[:, 0]))
-    position, total = np.zeros(n), 0.0
-    for _ in range(n - 1):
-        left[current] = False
-        remaining = np.flatnonzero(left)
-        distance = np.linalg.norm(points[remaining] - points[current], axis=1)
-        nearest = int(np.argmin(distance))
-        total += distance[nearest]
-        current = int(remaining[nearest])
-        position[current] = total
+    """Arc length of scattered points of a curve, each joined to the nearest one not yet visited, from an end if it has one."""
+    order, steps = walk(points, int(np.argmin(points[:, 0])))
+    if len(steps) and steps.max() > JUMP * np.median(steps):
+        order, steps = walk(points, order[np.argmax(steps)])
+    position = np.zeros(len(points))
+    position[order[1:]] = np.cumsum(steps)
     return position
+
+
+def walk(points, start):
+    """The points in the order of a walk to the nearest one not yet visited, and the lengths of its steps."""
+    left = np.ones(len(points), dtype=bool)
+    order, steps = [start], []
+    for _ in range(len(points) - 1):
+        left[order[-1]] = False
+        remaining = np.flatnonzero(left)
+        distance = np.linalg.norm(points[remaining] - points[order[-1]], axis=1)
+        nearest = int(np.argmin(distance))
+        steps.append(distance[nearest])
+        order.append(int(remaining[nearest]))
+    return np.array(order), np.array(steps)
+
+
+def with_breaks(position, *curves):
+    """The sorted positions and curves over them, with NaN where neighbours are far apart: lines end there."""
+    steps = np.diff(position)
+    far = np.flatnonzero(steps > JUMP * np.median(steps)) + 1 if len(steps) else []
+    return [np.insert(values.astype(float), far, np.nan) for values in (position, *curves)]
 
 
 def draw_contact(run, step, references, pairs=None):
@@ -106,11 +121,12 @@ def draw_pair(panel, table, friction, references, units):
     order = np.argsort(position, kind="stable")
     position, pressure = position[order], table["pressure"][order]
     tau = np.hypot(table["tau_x"], table["tau_y"])[order]
-    panel.plot(position, pressure, ".-", markersize=4, color=COLOURS[0], label="pressure p")
+    along, pressures, tractions = with_breaks(position, pressure, tau)
+    panel.plot(along, pressures, ".-", markersize=4, color=COLOURS[0], label="pressure p")
     if tau.max() > 0.0:
-        panel.plot(position, tau, ".-", markersize=4, color=COLOURS[1], label=r"tangential traction $|\tau|$")
+        panel.plot(along, tractions, ".-", markersize=4, color=COLOURS[1], label=r"tangential traction $|\tau|$")
     if np.isfinite(friction) and friction > 0.0:
-        panel.plot(position, friction * pressure, "--", linewidth=1, color="#707070",
+        panel.plot(along, friction * pressures, "--", linewidth=1, color="#707070",
                    label=rf"limit of friction $\mu p$, $\mu$ = {short(friction)}")
     for number, curve in enumerate(references):
         panel.plot(curve.x, curve.y, linestyle=["-", "--", ":", "-."][number % 4], color="black", linewidth=1,

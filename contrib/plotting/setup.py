@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from .bodies import body_colour, outline
 from .results import BodyMesh, read_table
-from .style import COLOURS, figure_for, save, short
+from .style import COLOURS, RIGID, figure_for, save, short
 from .surface import draw_surface
 
 
@@ -52,9 +52,15 @@ def draw_3d(run, mesh):
 
 
 def draw_cells(axes, mesh, points):
-    """Whole cells by size, cut cells in one colour, cell edges (without the diagonals of cut cells)."""
-    quads = mesh.cells_of(BodyMesh.quadrilateral)
+    """Whole cells of deformable bodies by size, cut cells in one colour, cell edges (without the diagonals of cut cells); rigid
+    bodies, which have no cells, grey."""
     handles = []
+    quads, triangles = (mesh.cells_of(kind) for kind in (BodyMesh.quadrilateral, BodyMesh.triangle))
+    is_rigid = mesh.is_rigid
+    for cells in (quads, triangles):
+        if len(cells):
+            axes.add_collection(PolyCollection(points[cells[is_rigid[cells[:, 0]]]], facecolors=RIGID, edgecolors="face"))
+    quads, triangles = quads[~is_rigid[quads[:, 0]]], triangles[~is_rigid[triangles[:, 0]]]
     if len(quads):
         size = np.ptp(points[quads][:, :, 0], axis=1)
         level = np.rint(np.log2(size.max() / size)).astype(int)
@@ -63,11 +69,11 @@ def draw_cells(axes, mesh, points):
             chosen = quads[level == number]
             axes.add_collection(PolyCollection(points[chosen], facecolors=shade, edgecolors="none"))
             handles.append(Patch(color=shade, label=f"cells of edge {short(size.max() / 2.0**number)}"))
-    triangles = mesh.cells_of(BodyMesh.triangle)
     if len(triangles):
         axes.add_collection(PolyCollection(points[triangles], facecolors="#f6dfb8", edgecolors="none"))
         handles.append(Patch(color="#f6dfb8", label="cut cells"))
     edges = mesh.edges()
+    edges = edges[~is_rigid[edges[:, 0]]]
     straight = (np.abs(points[edges[:, 0]] - points[edges[:, 1]]) < 1e-7 * mesh.size).any(axis=1)
     axes.add_collection(LineCollection(points[edges[straight]], colors="#9a9a9a", linewidths=0.25))
     return handles

@@ -23,9 +23,10 @@ note(const int signal)
       first_signal = signal;
       if (signal == SIGPIPE || tells_user == 0)
         return;
-      const char text[] = "\nscree: ends after this iteration, with a checkpoint; a second signal "
-                          "ends it at once\n";
-      const ssize_t n   = write(STDERR_FILENO, text, sizeof text - 1);
+      const char text[]
+        = "\nscree: ends after this iteration, with a checkpoint if it keeps any; a "
+          "second signal ends it at once\n";
+      const ssize_t n = write(STDERR_FILENO, text, sizeof text - 1);
       static_cast<void>(n);
       return;
     }
