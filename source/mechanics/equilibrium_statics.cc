@@ -8,6 +8,9 @@
 // Free bodies: their statics as rigid ones and the artificial mass that holds them.
 namespace scree
 {
+// A body sums the round-off of its nodes; loads below it are none.
+constexpr double round_off_of_bodies = 10.;
+
 // The artificial mass of bodies whose moments are held whole: round-off alone turns them.
 constexpr double held_mass_factor = 1e-3;
 
@@ -132,12 +135,15 @@ typename FreeBodies<dim>::Coordinates
 Equilibrium<dim>::unbalanced_loads() const
 {
   const auto loads_on_motions = loads_on_free_bodies();
-  auto       result           = free.unbalanced(loads_on_motions);
   double     norm             = 0.;
   for (const double load : loads_on_motions)
     norm += load * load;
+  norm = std::sqrt(norm);
+  if (norm <= round_off_of_bodies * round_off())
+    return std::vector<double>(loads_on_motions.size(), 0.);
+  auto result = free.unbalanced(loads_on_motions);
   for (double &part : result)
-    part /= norm == 0. ? 1. : std::sqrt(norm);
+    part /= norm;
   return result;
 }
 
@@ -149,8 +155,8 @@ Equilibrium<dim>::balance_rigid_motions(Vector &u, const ContactHistory<dim> &hi
   if (free_bodies().empty() || has_inertia() || drag != 0.)
     return {};
   const auto forces = loads_on_free_bodies();
-  // A body sums the round-off of its nodes.
-  const auto motion = free.balancing(forces, history, 10. * round_off(), is_settling);
+  const auto motion
+    = free.balancing(forces, history, round_off_of_bodies * round_off(), is_settling);
   if (motion.empty())
     return {};
   free.add(motion, u, turns_infinitesimally());

@@ -137,8 +137,8 @@ public:
                                               const bool is_settling = false) const;
 
   /**
-   * What of the loads on the free bodies no contact can balance, see FreeBodies::unbalanced(), as a
-   * part of the loads: a motion of length 0 to 1. Of the last residual() (collective).
+   * What of the loads on the free bodies no contact can balance, see FreeBodies::unbalanced(): a
+   * motion of length 0 (also if loads are round-off) to 1. Of the last residual() (collective).
    */
   typename FreeBodies<dim>::Coordinates unbalanced_loads() const;
 
