@@ -15,17 +15,17 @@ namespace
 unsigned int n_collectives = 0;
 } // namespace
 
-// The profiling interface of MPI: all reductions and broadcasts are counted.
-extern "C" int
-MPI_Allreduce(const void *send, void *receive, int count, MPI_Datatype type, MPI_Op operation,
-              MPI_Comm communicator)
+// The profiling interface of MPI: all reductions and broadcasts are counted. In parentheses, for
+// PETSc has macros of these names.
+extern "C" int(MPI_Allreduce)(const void *send, void *receive, int count, MPI_Datatype type,
+                              MPI_Op operation, MPI_Comm communicator)
 {
   ++n_collectives;
   return PMPI_Allreduce(send, receive, count, type, operation, communicator);
 }
 
-extern "C" int
-MPI_Bcast(void *buffer, int count, MPI_Datatype type, int root, MPI_Comm communicator)
+extern "C" int(MPI_Bcast)(void *buffer, int count, MPI_Datatype type, int root,
+                          MPI_Comm communicator)
 {
   ++n_collectives;
   return PMPI_Bcast(buffer, count, type, root, communicator);

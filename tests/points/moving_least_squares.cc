@@ -152,11 +152,11 @@ TEST(MovingLeastSquares, components)
   std::vector<Tensor<2, 2>> tensors(cloud.position.size());
   std::vector<double>       rows;
   for (std::size_t i = 0; i < tensors.size(); ++i)
-    {
-      for (unsigned int c = 0; c < 4; ++c)
+    for (unsigned int c = 0; c < 4; ++c)
+      {
         tensors[i][c / 2][c % 2] = std::sin(3. * i + c);
-      rows.insert(rows.end(), tensors[i].begin_raw(), tensors[i].end_raw());
-    }
+        rows.push_back(tensors[i][c / 2][c % 2]);
+      }
   const auto tensor_values = weights.values(tensors);
   const auto row_values    = weights.values(rows, 4);
   for (std::size_t t = 0; t < weights.n_targets(); ++t)
