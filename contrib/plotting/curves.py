@@ -82,7 +82,7 @@ def draw_contact(run, step, references, pairs=None):
     for pair, panel in zip(names, panels.ravel()):
         chosen = table["pair"] == pair
         draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction[pair],
-                  references, run.units)
+                  references, run)
         panel.set_title(pair)
     time = run.time_of(step)
     figure.suptitle(run.title + (f", time {short(time)}" if time is not None else ""))
@@ -113,7 +113,18 @@ def listed(names, most=8):
     return ", ".join(names[:most]) + (f" and {len(names) - most} others" if len(names) > most else "")
 
 
-def draw_pair(panel, table, friction, references, units):
+def cell_means(position, table):
+    """Sorted positions, pressures and tangential tractions: means of the cells, at the mean positions of their points."""
+    pressure, tau = table["cell_pressure"], np.hypot(table["cell_tau_x"], table["cell_tau_y"])
+    values = np.stack([pressure, table["cell_tau_x"], table["cell_tau_y"]], axis=1)
+    same = (values[1:] == values[:-1]).all(axis=1) & (values[1:] != 0.0).any(axis=1)
+    cell = np.concatenate([[0], np.cumsum(~same)])
+    return [np.bincount(cell, of_points) / np.bincount(cell) for of_points in (position, pressure, tau)]
+
+
+def draw_pair(panel, table, friction, references, run):
+    """Tractions over the surface; in degree 1 lines of means of the cells, for those of points saw-tooth, and faint points."""
+    units = run.units
     if "z" in table:
         draw_pair_3d(panel, table, units)
         return
@@ -121,7 +132,12 @@ def draw_pair(panel, table, friction, references, units):
     order = np.argsort(position, kind="stable")
     position, pressure = position[order], table["pressure"][order]
     tau = np.hypot(table["tau_x"], table["tau_y"])[order]
-    along, pressures, tractions = with_breaks(position, pressure, tau)
+    along, pressures, tractions = position, pressure, tau
+    if run.parameters.get("Discretization/Degree", "1") == "1" and "cell_pressure" in table:
+        for number, values in enumerate((pressure, tau)):
+            panel.plot(position, values, ".", markersize=2, color=COLOURS[number], alpha=0.35)
+        along, pressures, tractions = cell_means(position, {key: values[order] for key, values in table.items()})
+    along, pressures, tractions = with_breaks(along, pressures, tractions)
     panel.plot(along, pressures, ".-", markersize=4, color=COLOURS[0], label="pressure p")
     if tau.max() > 0.0:
         panel.plot(along, tractions, ".-", markersize=4, color=COLOURS[1], label=r"tangential traction $|\tau|$")

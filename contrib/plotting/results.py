@@ -197,7 +197,7 @@ class RunResults:
 
     @property
     def title(self):
-        return self.parameters.get("Title", "") or self.directory.name
+        return self.parameters.get("Title", "") or self.directory.resolve().name
 
     def files_by_step(self, pattern):
         steps = {}

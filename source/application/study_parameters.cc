@@ -32,7 +32,7 @@ StudyQuantity<dim>::declare(ParameterSection &section)
   section.entry(
     "Column", column,
     "Column of history.csv or probes.csv, as block-cylinder.force_y; with Pair a column "
-    "of the contact table: pressure, tau_x, gap, ...");
+    "of the contact table: cell_pressure, pressure, gap, ...");
   section.entry("Extreme", extreme, extreme_names,
                 "none: the value of the last load step, with Pair the curve; maximum, minimum: the "
                 "largest or smallest value of all load steps, with Pair of all contact points in "

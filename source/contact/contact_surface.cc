@@ -149,6 +149,7 @@ PairSurface<dim>::points(const unsigned int c, const GridCell<dim> &cell, const 
       const auto [n, normal_of] = normal(x, cell.size, surface.normals[q], nodal);
       result.push_back({number, x, n, surface.weights[q], gap, cell.size, n, gap});
       result.back().normal_of = normal_of;
+      result.back().cell      = c;
     }
   return result;
 }

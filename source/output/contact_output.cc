@@ -12,6 +12,8 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace scree
 {
@@ -26,9 +28,52 @@ shown_status(const ContactResponse<dim> &response)
                                                                      : response.status;
 }
 
+/** Mean pressures p, tangential tractions of the points of a pair in a cell, at each of them. */
+template <int dim>
+class CellMeans
+{
+public:
+  explicit CellMeans(const ContactPoints<dim> &contact)
+      : contact(contact)
+  {
+    for (unsigned int i = 0; i < contact.points().size(); ++i)
+      {
+        const auto &point    = contact.points()[i];
+        const auto &response = contact.responses()[i];
+        if (point.cell == dealii::numbers::invalid_unsigned_int)
+          continue;
+        Sum &sum = sums[{point.pair, point.cell}];
+        sum.weight += point.weight;
+        sum.pressure += point.weight * response.pressure;
+        sum.tau += point.weight * response.tau;
+      }
+  }
+
+  /** Pressure and tangential traction; those of the point itself where it is of no cell. */
+  std::pair<double, dealii::Tensor<1, dim>> at(const unsigned int i) const
+  {
+    const auto &point = contact.points()[i];
+    const auto  sum   = sums.find({point.pair, point.cell});
+    if (sum == sums.end())
+      return {contact.responses()[i].pressure, contact.responses()[i].tau};
+    const double weight = sum->second.weight;
+    return {sum->second.pressure / weight, sum->second.tau / weight};
+  }
+
+private:
+  struct Sum
+  {
+    double                 weight = 0., pressure = 0.;
+    dealii::Tensor<1, dim> tau = {};
+  };
+
+  const ContactPoints<dim>                            &contact;
+  std::map<std::pair<unsigned int, unsigned int>, Sum> sums;
+};
+
 template <int dim>
 std::vector<double>
-columns(const ContactPoints<dim> &contact, const unsigned int i)
+columns(const ContactPoints<dim> &contact, const CellMeans<dim> &means, const unsigned int i)
 {
   const auto         &point    = contact.points()[i];
   const auto         &response = contact.responses()[i];
@@ -45,6 +90,9 @@ columns(const ContactPoints<dim> &contact, const unsigned int i)
   append(response.tau);
   append(contact.jumps()[i]);
   values.push_back(static_cast<unsigned int>(shown_status(response)));
+  const auto [pressure, tau] = means.at(i);
+  values.push_back(pressure);
+  append(tau);
   return values;
 }
 } // namespace
@@ -63,6 +111,8 @@ contact_columns()
     for (unsigned int d = 0; d < dim; ++d)
       names.push_back(prefix + axes[d]);
   names.push_back("status");
+  names.push_back("cell_pressure");
+  add_vector_names<dim>("cell_tau", names);
   return names;
 }
 
@@ -70,9 +120,10 @@ template <int dim>
 std::vector<std::vector<double>>
 contact_rows(const ContactPoints<dim> &contact)
 {
+  const CellMeans<dim>             means(contact);
   std::vector<std::vector<double>> rows;
   for (unsigned int i = 0; i < contact.points().size(); ++i)
-    rows.push_back(columns(contact, i));
+    rows.push_back(columns(contact, means, i));
   return rows;
 }
 
@@ -219,10 +270,11 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
   auto names = contact_columns<dim>();
   // Position comes with the vertex.
   names.erase(names.begin() + 1, names.begin() + 1 + dim);
-  PointPatches<dim> output(names);
+  const CellMeans<dim> means(contact);
+  PointPatches<dim>    output(names);
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     {
-      std::vector<double> values = columns(contact, i);
+      std::vector<double> values = columns(contact, means, i);
       values.erase(values.begin() + 1, values.begin() + 1 + dim);
       output.add(contact.points()[i].position, values);
     }
@@ -232,6 +284,8 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
                                       {"gap", Quantity::length},
                                       {"pressure", Quantity::stress},
                                       {"tau", Quantity::stress},
+                                      {"cell_pressure", Quantity::stress},
+                                      {"cell_tau", Quantity::stress},
                                       {"jump", Quantity::length}},
                                      dim);
   output.set_flags(flags);

@@ -46,6 +46,7 @@ struct ContactPoint
   /** x_a and x_b, where the displacements of a and b are taken. */
   std::array<dealii::Point<dim>, 2> feet    = {};
   bool                              is_node = false; //!< of the grid, which both bodies reach
+  unsigned int cell = dealii::numbers::invalid_unsigned_int; //!< local one that the surface crosses
 };
 
 /**

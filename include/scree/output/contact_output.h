@@ -89,7 +89,8 @@ std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &contact)
 /**
  * Writes DIR/contact_NNNN.csv with all contact points, sorted by pair and position: pair, position,
  * normal, weight, gap, pressure p, tangential traction, jump [[u]], status (0 open, 1 stick, 2
- * slip). The first process writes; returns false there if it could not.
+ * slip), means of p and the tangential traction over the points in its cell. The first process
+ * writes; returns false there if it could not.
  */
 template <int dim>
 bool write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
