@@ -199,12 +199,15 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
       summary.force += force;
       summary.moment += moment_of<dim>(point.position, force);
       add_place(contact, i, force, geometry_is_moving, summary);
-      // Slivers of the surface carry nothing and would decide which extreme is sampled.
-      if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1)
-          && contact.gap(i) < summary.minimum_gap)
+      // Slivers of the surface carry nothing and would decide which extremes are sampled.
+      if (point.weight > 1e-3 * std::pow(point.cell_size, dim - 1))
         {
-          summary.minimum_gap = contact.gap(i);
-          summary.where       = point.position;
+          summary.max_pressure = std::max(summary.max_pressure, response.pressure);
+          if (contact.gap(i) < summary.minimum_gap)
+            {
+              summary.minimum_gap = contact.gap(i);
+              summary.where       = point.position;
+            }
         }
       const ContactStatus status = shown_status(response);
       (status == ContactStatus::open    ? summary.open
@@ -215,7 +218,6 @@ summarise_contact(const ContactPoints<dim> &contact, const MPI_Comm communicator
        : status == ContactStatus::stick ? summary.stick_points
                                         : summary.slip_points)
         += 1.;
-      summary.max_pressure = std::max(summary.max_pressure, response.pressure);
     }
   auto result = dealii::Utilities::MPI::all_reduce<Table>(
     own, communicator, [](const Table &a, const Table &b) {
