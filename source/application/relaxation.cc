@@ -62,6 +62,8 @@ Relaxation<dim>::run()
   before                           = model.state();
   n_iterations                     = 0;
   double drag                      = first_drag;
+  run_log.log.line("  where bodies go is sought against a drag, in up to "
+                   + std::to_string(max_moves) + " moves");
   for (unsigned int n_moves = 0; n_moves < max_moves && drag <= largest_drag;)
     {
       const auto motion = move(drag);
