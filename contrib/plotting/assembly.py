@@ -16,8 +16,11 @@ FEWEST = 3    # grains; fewer are no packing
 
 def draw(run, step):
     """Writes chains.png and rose.png of 2D (NAME_NNNN.png for a step asked for) and assembly.png of a packing; their paths."""
-    table = run.directory / "assembly.csv"
-    if not table.exists() or read_table(table)["grains"].max(initial=0) < FEWEST:
+    path = run.directory / "assembly.csv"
+    if not path.exists():
+        return []
+    table = read_table(path)
+    if table["grains"].max(initial=0) < FEWEST:
         return []
     pictures = []
     if run.dimension == 2 and run.body_files:
@@ -28,7 +31,7 @@ def draw(run, step):
             pictures.append(save(chains(run, number, contacts), run.directory / f"chains{suffix}.png"))
         if (~contacts["at_wall"]).any():
             pictures.append(save(rose(run, number, contacts), run.directory / f"rose{suffix}.png"))
-    return pictures + [draw_curves(run)]
+    return pictures + [draw_curves(run, table)]
 
 
 def contacts_of(run, step):
@@ -107,10 +110,9 @@ def rose(run, step, contacts):
     return figure
 
 
-def draw_curves(run):
+def draw_curves(run, table):
     """Writes assembly.png: stress, porosity, coordination and friction over time, with lines where a stage ends; nothing for a single
     step."""
-    table = read_table(run.directory / "assembly.csv")
     if len(table["time"]) < 2:
         return None
     figure, panels = plt.subplots(2, 2, figsize=(11.0, 7.4), sharex=True)

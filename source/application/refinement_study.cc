@@ -114,17 +114,19 @@ RefinementStudy<dim>::set_up(const unsigned int cycle)
 }
 
 template <int dim>
-void
-RefinementStudy<dim>::require_quantities(const Simulation<dim> &simulation) const
+std::vector<unsigned int>
+RefinementStudy<dim>::columns_of_quantities(const Simulation<dim> &simulation) const
 {
+  std::vector<unsigned int> result;
   for (const auto &quantity : parameters.study.quantities)
     {
       const bool is_of_pair = !quantity.pair.empty();
       if (is_of_pair)
         pair_index(quantity, simulation.get_model().problem().contact());
       const auto names = is_of_pair ? contact_columns<dim>() : simulation.columns();
-      index_of(quantity.column, names, quantity.path + "/Column", "column");
+      result.push_back(index_of(quantity.column, names, quantity.path + "/Column", "column"));
     }
+  return result;
 }
 
 template <int dim>
@@ -132,7 +134,7 @@ void
 RefinementStudy<dim>::check()
 {
   const auto simulation = set_up(0);
-  require_quantities(*simulation);
+  columns_of_quantities(*simulation);
   simulation->check();
 }
 
@@ -145,11 +147,11 @@ RefinementStudy<dim>::run()
     {
       const std::clock_t start      = std::clock();
       const auto         simulation = set_up(c);
-      require_quantities(*simulation);
-      Cycle cycle;
+      const auto         columns    = columns_of_quantities(*simulation);
+      Cycle              cycle;
       cycle.numbers.assign(parameters.study.quantities.size(), unknown);
       cycle.curves.resize(parameters.study.quantities.size());
-      simulation->run([&]() { note_step(*simulation, cycle); });
+      simulation->run([&]() { note_step(*simulation, columns, cycle); });
       const DiscreteProblem<dim> &problem = simulation->get_model().problem();
       cycle.n_cells                       = problem.grid.triangulation().n_global_active_cells();
       cycle.n_unknowns                    = problem.space.n_dofs();
@@ -160,7 +162,7 @@ RefinementStudy<dim>::run()
       if (!problem.is_moving())
         estimate = estimate_error(problem, simulation->get_model().state());
       cycle.error_estimate = estimate.relative;
-      measure_contacts(*simulation, cycle);
+      measure_contacts(*simulation, columns, cycle);
       cycles.push_back(cycle);
       if (c + 1 < n_cycles && !choose_next_grid(*simulation, estimate))
         {
@@ -173,22 +175,24 @@ RefinementStudy<dim>::run()
 
 template <int dim>
 void
-RefinementStudy<dim>::note_step(const Simulation<dim> &simulation, Cycle &cycle) const
+RefinementStudy<dim>::note_step(const Simulation<dim>           &simulation,
+                                const std::vector<unsigned int> &columns, Cycle &cycle) const
 {
-  const auto names = simulation.columns(), values = simulation.last_values();
+  const auto values = simulation.last_values();
   for (unsigned int q = 0; q < cycle.numbers.size(); ++q)
     if (const StudyQuantity<dim> &quantity = parameters.study.quantities[q]; quantity.pair.empty())
-      cycle.numbers[q]
-        = chosen(quantity.extreme, cycle.numbers[q],
-                 values[index_of(quantity.column, names, quantity.path + "/Column", "column")]);
+      cycle.numbers[q] = chosen(quantity.extreme, cycle.numbers[q], values[columns[q]]);
 }
 
 template <int dim>
 void
-RefinementStudy<dim>::measure_contacts(const Simulation<dim> &simulation, Cycle &cycle) const
+RefinementStudy<dim>::measure_contacts(const Simulation<dim>           &simulation,
+                                       const std::vector<unsigned int> &columns, Cycle &cycle) const
 {
-  const auto  contact_names = contact_columns<dim>();
-  const auto &contact       = simulation.get_model().problem().contact();
+  const unsigned int weight
+    = index_of("weight", contact_columns<dim>(), "Refinement study", "column");
+  const auto &contact = simulation.get_model().problem().contact();
+  const auto  all     = dealii::Utilities::MPI::all_gather(communicator, contact_rows(contact));
   for (unsigned int q = 0; q < cycle.curves.size(); ++q)
     {
       const StudyQuantity<dim> &quantity = parameters.study.quantities[q];
@@ -197,11 +201,7 @@ RefinementStudy<dim>::measure_contacts(const Simulation<dim> &simulation, Cycle 
       const Expression<dim> along(quantity.along, 1, quantity.path + "/Along");
       const Expression<dim> formula(quantity.reference.empty() ? "0" : quantity.reference, 1,
                                     quantity.path + "/Reference");
-      const unsigned int    pair   = pair_index(quantity, contact);
-      const unsigned int    weight = index_of("weight", contact_names, quantity.path, "column");
-      const unsigned int    column
-        = index_of(quantity.column, contact_names, quantity.path + "/Column", "column");
-      const auto all = dealii::Utilities::MPI::all_gather(communicator, contact_rows(contact));
+      const unsigned int    pair = pair_index(quantity, contact);
       for (const auto &rows : all)
         for (const auto &row : rows)
           if (row[0] == pair)
@@ -210,7 +210,7 @@ RefinementStudy<dim>::measure_contacts(const Simulation<dim> &simulation, Cycle 
               for (unsigned int d = 0; d < dim; ++d)
                 position[d] = row[1 + d];
               cycle.curves[q].push_back(
-                {along.value(position), row[column], row[weight], formula.value(position)});
+                {along.value(position), row[columns[q]], row[weight], formula.value(position)});
             }
       for (const CurvePoint &point : cycle.curves[q])
         cycle.numbers[q] = chosen(quantity.extreme, cycle.numbers[q], point.value);

@@ -20,14 +20,7 @@ template <int dim>
 dealii::Tensor<1, 3>
 moment_of(const dealii::Tensor<1, dim> &position, const dealii::Tensor<1, dim> &force)
 {
-  dealii::Tensor<1, 3> moment;
-  moment[2] = position[0] * force[1] - position[1] * force[0];
-  if (dim == 3)
-    {
-      moment[0] = position[1] * force[dim - 1] - position[dim - 1] * force[1];
-      moment[1] = position[dim - 1] * force[0] - position[0] * force[dim - 1];
-    }
-  return moment;
+  return moment_of<dim>(outer_product(force, position));
 }
 
 template <int dim>

@@ -272,13 +272,12 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
   auto names = contact_columns<dim>();
   // Position comes with the vertex.
   names.erase(names.begin() + 1, names.begin() + 1 + dim);
-  const CellMeans<dim> means(contact);
-  PointPatches<dim>    output(names);
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
+  PointPatches<dim> output(names);
+  auto              rows = contact_rows(contact);
+  for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      std::vector<double> values = columns(contact, means, i);
-      values.erase(values.begin() + 1, values.begin() + 1 + dim);
-      output.add(contact.points()[i].position, values);
+      rows[i].erase(rows[i].begin() + 1, rows[i].begin() + 1 + dim);
+      output.add(contact.points()[i].position, rows[i]);
     }
   dealii::DataOutBase::VtkFlags flags;
   flags.physical_units = unit_labels(parameters,

@@ -60,11 +60,15 @@ private:
   };
 
   std::unique_ptr<Simulation<dim>> set_up(const unsigned int cycle);
-  void                             require_quantities(const Simulation<dim> &simulation) const;
+  /** Of each quantity, in the values of a step or in the contact table. @throws UserError if a
+   * quantity is unknown */
+  std::vector<unsigned int> columns_of_quantities(const Simulation<dim> &simulation) const;
   /** Takes the numbers of a load step into those of the cycle. */
-  void note_step(const Simulation<dim> &simulation, Cycle &cycle) const;
-  /** Takes what lies along contacts after the last load step. */
-  void measure_contacts(const Simulation<dim> &simulation, Cycle &cycle) const;
+  void note_step(const Simulation<dim> &simulation, const std::vector<unsigned int> &columns,
+                 Cycle &cycle) const;
+  /** Takes what lies along contacts after the last load step (collective). */
+  void measure_contacts(const Simulation<dim> &simulation, const std::vector<unsigned int> &columns,
+                        Cycle &cycle) const;
   /** Puts the next grid into the parameters; false if no cell is left to divide. */
   bool       choose_next_grid(const Simulation<dim> &simulation, const ErrorEstimate &estimate);
   Comparison compare(const unsigned int quantity, const unsigned int cycle) const;
