@@ -6,7 +6,9 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
-#include <sstream>
+#include <boost/iostreams/device/array.hpp>
+#include <boost/iostreams/stream.hpp>
+#include <ostream>
 
 namespace scree
 {
@@ -14,10 +16,10 @@ template <int dim>
 std::size_t
 Checkpoint<dim>::write(const std::string &directory) const
 {
-  std::ostringstream              bytes;
-  boost::archive::binary_oarchive archive(bytes);
-  archive << *this;
-  return write_checkpoint_file(directory, dim, bytes.str());
+  return write_checkpoint_file(directory, dim, [this](std::ostream &stream) {
+    boost::archive::binary_oarchive archive(stream);
+    archive << *this;
+  });
 }
 
 template <int dim>
@@ -35,8 +37,9 @@ Checkpoint<dim>::read(const std::string &directory, const MPI_Comm communicator)
   Checkpoint result;
   try
     {
-      std::istringstream              bytes(file.contents);
-      boost::archive::binary_iarchive archive(bytes);
+      using Contents = boost::iostreams::array_source;
+      boost::iostreams::stream<Contents> bytes(Contents(file.contents.data(), size));
+      boost::archive::binary_iarchive    archive(bytes);
       archive >> result;
     }
   catch (const std::exception &error) // of the archive, or lengths that cannot be

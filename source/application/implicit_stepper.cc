@@ -67,16 +67,20 @@ ImplicitStepper<dim>::largest_step() const
 
 template <int dim>
 bool
-ImplicitStepper<dim>::finds_another_way()
+ImplicitStepper<dim>::finds_another_way(const typename Attempt<dim>::Outcome outcome)
 {
+  const bool is_unsolved = outcome == Attempt<dim>::Outcome::unsolved;
   if (relaxation.is_pending())
     relaxation.go_back();
   else
     {
-      require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
-      if (relaxation.may_help() && relaxation.run())
+      if (is_unsolved)
+        require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
+      if ((is_unsolved || free_goes_far) && relaxation.may_help() && relaxation.run())
         return true;
     }
+  if (!is_unsolved)
+    return false;
   if (!has_turned && !model.problem().equilibrium().free_bodies().empty())
     {
       // The other way, after a fall, see Equilibrium::set_second_attempt().
@@ -125,7 +129,12 @@ ImplicitStepper<dim>::attempt()
   Attempt<dim> attempt;
   attempt.record = record;
   if (result.status == NewtonStatus::interrupted)
-    return given_up(std::move(attempt), Attempt<dim>::Outcome::interrupted);
+    {
+      if (relaxation.is_pending())
+        relaxation.go_back();
+      attempt.outcome = Attempt<dim>::Outcome::interrupted;
+      return attempt;
+    }
   if (!result.converged())
     {
       report.failure(record, result, problem.contact(), status_changes, problem.communicator());
@@ -143,7 +152,10 @@ ImplicitStepper<dim>::attempt()
         {
           run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(time)
                            + " is too large: " + reason);
-          return given_up(std::move(attempt), Attempt<dim>::Outcome::too_large);
+          free_goes_far = largest_free_motion(u)
+                          > parameters.moving.largest_motion * problem.grid.finest_size();
+          attempt.outcome = Attempt<dim>::Outcome::too_large;
+          return attempt;
         }
     }
   else
@@ -168,13 +180,15 @@ ImplicitStepper<dim>::attempt()
 }
 
 template <int dim>
-Attempt<dim>
-ImplicitStepper<dim>::given_up(Attempt<dim> &&attempt, const typename Attempt<dim>::Outcome outcome)
+double
+ImplicitStepper<dim>::largest_free_motion(const Vector &u) const
 {
-  if (relaxation.is_pending())
-    relaxation.go_back();
-  attempt.outcome = outcome;
-  return std::move(attempt);
+  const Equilibrium<dim>   &equilibrium = model.problem().equilibrium();
+  const std::vector<double> motions     = equilibrium.largest_displacements(u);
+  double                    result      = 0.;
+  for (const FreeMotion &free : equilibrium.free_bodies())
+    result = std::max(result, motions[free.body]);
+  return result;
 }
 
 template <int dim>

@@ -1,8 +1,6 @@
 #include <scree/application/implicit_stepper.h>
 #include <scree/application/relaxation.h>
 
-#include <algorithm>
-
 namespace scree
 {
 template <int dim>
@@ -40,10 +38,7 @@ Relaxation<dim>::move(const double drag)
   auto [points, reason] = stepper.move_points(u);
   if (!reason.empty())
     return {};
-  const std::vector<double> motions = equilibrium.largest_displacements(u);
-  double                    largest = 0.;
-  for (const FreeMotion &free : equilibrium.free_bodies())
-    largest = std::max(largest, motions[free.body]);
+  const double largest = stepper.largest_free_motion(u);
   equilibrium.accept_as_transfer(u, model.state().contact);
   model.accept(u, time);
   model.move_geometry(std::move(points), step_control.step_size());

@@ -233,7 +233,7 @@ template <int dim>
 void
 Simulation<dim>::try_again(const Attempt<dim> &attempt)
 {
-  if (attempt.outcome == Attempt<dim>::Outcome::unsolved && stepper->finds_another_way())
+  if (stepper->finds_another_way(attempt.outcome))
     return;
   require(step_control.reject(), "Time",
           "the load step to time " + short_number(attempt.record.time)

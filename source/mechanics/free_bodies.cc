@@ -70,6 +70,7 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
       n_coordinates += basis.n();
     }
   find_unknowns(space);
+  find_start_motions(space);
   find_couplings();
   for (const ContactPoint<dim> &point : contact.points())
     cell_size = std::max(cell_size, point.cell_size);
@@ -157,6 +158,26 @@ FreeBodies<dim>::find_unknowns(const DisplacementSpace<dim> &space)
             positions[i].push_back(geometry.lower
                                    + geometry.size * dealii::Tensor<1, dim>(space.basis.node(k)));
           }
+    }
+}
+
+template <int dim>
+void
+FreeBodies<dim>::find_start_motions(const DisplacementSpace<dim> &space)
+{
+  places.resize(free_motions.size());
+  start_motions.resize(free_motions.size());
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    {
+      const bool is_rigid = bodies[free_motions[i].body].is_rigid();
+      for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+        {
+          places[i].push_back(space.owned().index_within_set(free_unknowns[i][j]));
+          for (unsigned int k = 0; k < bases[i].n(); ++k)
+            start_motions[i].push_back(is_rigid
+                                         ? bases[i](free_components[i][j], k)
+                                         : motion(i, k, positions[i][j])[free_components[i][j]]);
+        }
     }
 }
 
@@ -342,13 +363,14 @@ FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces)
   constexpr double round_off = 1e-10;
   // Sums, then sums of magnitudes.
   std::vector<double> sums(2 * n_coordinates, 0.);
+  const double       *force = forces.begin();
   for (unsigned int i = 0; i < free_motions.size(); ++i)
-    for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
+    for (unsigned int j = 0; j < places[i].size(); ++j)
       {
         const auto modes = motions_of(i, j, nullptr);
         for (unsigned int k = 0; k < bases[i].n(); ++k)
           {
-            const double part = modes[k] * forces(free_unknowns[i][j]);
+            const double part = modes[k] * force[places[i][j]];
             sums[first[i] + k] += part;
             sums[n_coordinates + first[i] + k] += std::abs(part);
           }

@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -11,20 +12,21 @@ namespace scree
 {
 template <int dim>
 std::array<double, FreeBodies<dim>::Motions::n_motions>
-FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const Vector *u) const
+FreeBodies<dim>::motions_of(const unsigned int i, const unsigned int j, const double *u) const
 {
-  std::array<double, Motions::n_motions> result    = {};
-  const unsigned int                     component = free_components[i][j];
-  const bool                             is_rigid  = bodies[free_motions[i].body].is_rigid();
-  dealii::Point<dim>                     x;
-  if (!is_rigid)
+  std::array<double, Motions::n_motions> result = {};
+  const unsigned int                     n      = bases[i].n();
+  if (!u || !turns_finitely || bodies[free_motions[i].body].is_rigid())
     {
-      x = positions[i][j];
-      for (unsigned int d = 0; d < dim && turns_finitely && u; ++d)
-        x[d] += (*u)(free_unknowns[i][j] - component + d);
+      std::copy_n(start_motions[i].begin() + j * n, n, result.begin());
+      return result;
     }
-  for (unsigned int k = 0; k < bases[i].n(); ++k)
-    result[k] = is_rigid ? bases[i](component, k) : motion(i, k, x)[component];
+  const unsigned int component = free_components[i][j];
+  dealii::Point<dim> x         = positions[i][j];
+  for (unsigned int d = 0; d < dim; ++d)
+    x[d] += u[places[i][j] - component + d];
+  for (unsigned int k = 0; k < n; ++k)
+    result[k] = motion(i, k, x)[component];
   return result;
 }
 
@@ -37,10 +39,11 @@ FreeBodies<dim>::inverse_masses(const Vector &mass, const Vector *u) const
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
-        const auto modes = motions_of(i, j, u);
+        const auto   modes = motions_of(i, j, u ? u->begin() : nullptr);
+        const double m     = mass.begin()[places[i][j]];
         for (unsigned int k = 0; k < bases[i].n(); ++k)
           for (unsigned int l = 0; l < bases[i].n(); ++l)
-            sums[(i * n + k) * n + l] += mass(free_unknowns[i][j]) * modes[k] * modes[l];
+            sums[(i * n + k) * n + l] += m * modes[k] * modes[l];
       }
   dealii::Utilities::MPI::sum(sums, communicator, sums);
   std::vector<dealii::FullMatrix<double>> result;
@@ -77,13 +80,12 @@ FreeBodies<dim>::add_small(const double factor, const Coordinates &motion, const
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
-        const DofIndex unknown = free_unknowns[i][j];
-        const auto     modes   = motions_of(i, j, u);
-        const double   sum     = std::inner_product(modes.begin(), modes.begin() + bases[i].n(),
-                                                    motion.begin() + first[i], 0.);
-        result(unknown) += factor * (mass ? (*mass)(unknown) : 1.) * sum;
+        const unsigned int place = places[i][j];
+        const auto         modes = motions_of(i, j, u ? u->begin() : nullptr);
+        const double       sum   = std::inner_product(modes.begin(), modes.begin() + bases[i].n(),
+                                                      motion.begin() + first[i], 0.);
+        result.begin()[place] += factor * (mass ? mass->begin()[place] : 1.) * sum;
       }
-  result.compress(dealii::VectorOperation::add);
 }
 
 template <int dim>
@@ -196,9 +198,11 @@ FreeBodies<dim>::rigid_part(const Vector &du, const Vector &mass, const Vector *
   for (unsigned int i = 0; i < free_motions.size(); ++i)
     for (unsigned int j = 0; j < free_unknowns[i].size(); ++j)
       {
-        const auto modes = motions_of(i, j, u);
+        const unsigned int place    = places[i][j];
+        const auto         modes    = motions_of(i, j, u ? u->begin() : nullptr);
+        const double       momentum = mass.begin()[place] * du.begin()[place];
         for (unsigned int k = 0; k < bases[i].n(); ++k)
-          forces[first[i] + k] += mass(free_unknowns[i][j]) * modes[k] * du(free_unknowns[i][j]);
+          forces[first[i] + k] += modes[k] * momentum;
       }
   dealii::Utilities::MPI::sum(forces, communicator, forces);
   return times(inverse_masses(mass, u), forces);
@@ -251,16 +255,15 @@ FreeBodies<dim>::add(const Coordinates &motion, Vector &u, const bool infinitesi
             {
               auto x = positions[i][j];
               for (unsigned int d = 0; d < dim; ++d)
-                x[d] += before(free_unknowns[i][j] - component + d);
+                x[d] += before.begin()[places[i][j] - component + d];
               increment = rigid_motions[i].finite_motion(q, x)[component];
             }
           else
             for (unsigned int m = 0; m < q.size(); ++m)
               increment += q[m] * rigid_motions[i].motion(m, positions[i][j])[component];
-          u(free_unknowns[i][j]) += increment;
+          u.begin()[places[i][j]] += increment;
         }
     }
-  u.compress(dealii::VectorOperation::add);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                   \

@@ -209,7 +209,8 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
   last.expects_tangent         = true;
   const unsigned int         n = space.basis.n_nodes;
   dealii::FullMatrix<double> block(n * dim, n * dim);
-  std::vector<DofIndex>      unknowns;
+  if (!scatter)
+    scatter.emplace(space, matrix);
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell  = points.rule(a);
@@ -221,8 +222,7 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
                            block);
       if (projected_shares[space.cells()[a].body] > 0.)
         projection.add_couplings(a, last.of_volumes, block);
-      set_unknowns_of_nodes<dim>(space.nodes(a), n, unknowns);
-      space.hanging_constraints().distribute_local_to_global(block, unknowns, matrix);
+      scatter->add(a, block, matrix);
     }
 }
 

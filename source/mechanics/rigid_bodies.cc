@@ -183,7 +183,11 @@ RigidBodies<dim>::largest_displacement(const unsigned int body, const Vector &u)
   const RigidPose<dim> where  = pose(body, u);
   double               result = 0.;
   for (unsigned int v = 0; v < dealii::GeometryInfo<dim>::vertices_per_cell; ++v)
-    result = std::max(result, where.displacement(bodies[body].box.vertex(v)).norm());
+    {
+      const dealii::Point<dim> x = bodies[body].box.vertex(v),
+                               X = initial_position(bodies[body], x);
+      result                     = std::max(result, (X + where.displacement(X) - x).norm());
+    }
   return result;
 }
 

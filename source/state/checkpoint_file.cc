@@ -9,8 +9,10 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <unistd.h>
+#include <vector>
 
 namespace scree
 {
@@ -28,54 +30,131 @@ struct Header
 constexpr char          mark[16] = "scree restart\n\x1a";
 constexpr std::uint32_t format   = 8;
 
-std::uint32_t
-checksum(const std::string &bytes, const std::size_t n)
-{
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), n);
-  return crc.checksum();
-}
-
 /** Why a file is no usable checkpoint. */
 struct Damage
 {
   std::string what;
 };
 
-/** Writes and flushes a file; returns the error number, 0: none. */
-int
-write_to_disk(const std::string &file_name, const std::string &bytes)
+/** Counts the bytes that are written to it. */
+class CountingBuffer : public std::streambuf
 {
-  const int file = open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0)
-    return errno;
-  int error = 0;
-  for (std::size_t first = 0; first < bytes.size() && error == 0;)
-    {
-      const ssize_t n = write(file, bytes.data() + first, bytes.size() - first);
-      if (n > 0)
-        first += n;
-      else if (n == 0 || errno != EINTR)
-        error = n == 0 ? ENOSPC : errno;
-    }
-  if (error == 0 && fsync(file) != 0)
-    error = errno;
-  if (close(file) != 0 && error == 0)
-    error = errno;
-  return error;
-}
+public:
+  std::uint64_t n_bytes = 0;
+
+protected:
+  int_type overflow(const int_type byte) override
+  {
+    n_bytes += 1;
+    return traits_type::not_eof(byte);
+  }
+
+  std::streamsize xsputn(const char *, const std::streamsize n) override
+  {
+    n_bytes += n;
+    return n;
+  }
+};
+
+/** Writes to a file in pieces and holds the CRC-32 of what was written. */
+class FileBuffer : public std::streambuf
+{
+public:
+  explicit FileBuffer(const std::string &file_name)
+      : file(open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+      , error(file < 0 ? errno : 0)
+      , piece(1u << 20)
+  {
+    setp(piece.data(), piece.data() + piece.size());
+  }
+
+  ~FileBuffer() override
+  {
+    if (file >= 0)
+      close(file);
+  }
+
+  std::uint32_t checksum()
+  {
+    sync();
+    return crc.checksum();
+  }
+
+  /** Waits until all is on the disk and closes the file. Returns the first error number, 0: none.
+   */
+  int finish()
+  {
+    sync();
+    if (error == 0 && fsync(file) != 0)
+      error = errno;
+    if (file >= 0 && close(file) != 0 && error == 0)
+      error = errno;
+    file = -1;
+    return error;
+  }
+
+protected:
+  int_type overflow(const int_type byte) override
+  {
+    if (sync() != 0)
+      return traits_type::eof();
+    return traits_type::eq_int_type(byte, traits_type::eof())
+             ? traits_type::not_eof(byte)
+             : sputc(traits_type::to_char_type(byte));
+  }
+
+  int sync() override
+  {
+    write_out(pbase(), pptr() - pbase());
+    setp(piece.data(), piece.data() + piece.size());
+    return error == 0 ? 0 : -1;
+  }
+
+  std::streamsize xsputn(const char *bytes, const std::streamsize n) override
+  {
+    if (n > epptr() - pptr() && sync() != 0)
+      return 0;
+    if (n > epptr() - pptr())
+      write_out(bytes, n);
+    else
+      {
+        std::memcpy(pptr(), bytes, n);
+        pbump(static_cast<int>(n));
+      }
+    return error == 0 ? n : 0;
+  }
+
+private:
+  void write_out(const char *bytes, const std::size_t n)
+  {
+    crc.process_bytes(bytes, n);
+    for (std::size_t first = 0; first < n && error == 0;)
+      {
+        const ssize_t written = write(file, bytes + first, n - first);
+        if (written > 0)
+          first += written;
+        else if (written == 0 || errno != EINTR)
+          error = written == 0 ? ENOSPC : errno;
+      }
+  }
+
+  int                file, error;
+  std::vector<char>  piece;
+  boost::crc_32_type crc;
+};
 
 std::string
 read_contents(const std::string &file_name, const unsigned int dimension)
 {
-  std::ifstream file(file_name, std::ios::binary);
+  std::ifstream file(file_name, std::ios::binary | std::ios::ate);
   if (!file.good())
     throw Damage{"cannot be read"};
-  std::ostringstream text;
-  text << file.rdbuf();
-  const std::string bytes = text.str();
-  Header            header{};
-  std::uint32_t     crc = 0;
+  std::string bytes(file.tellg(), '\0');
+  file.seekg(0);
+  if (!file.read(bytes.data(), bytes.size()))
+    throw Damage{"cannot be read"};
+  Header        header{};
+  std::uint32_t crc = 0;
   if (bytes.size() < sizeof header + sizeof crc
       || std::memcmp(bytes.data(), mark, sizeof mark) != 0)
     throw Damage{"is not a checkpoint of scree"};
@@ -85,7 +164,9 @@ read_contents(const std::string &file_name, const unsigned int dimension)
                  + std::to_string(sizeof header + header.size + sizeof crc) + " bytes"};
   const std::size_t n = bytes.size() - sizeof crc;
   std::memcpy(&crc, bytes.data() + n, sizeof crc);
-  if (crc != checksum(bytes, n))
+  boost::crc_32_type found;
+  found.process_bytes(bytes.data(), n);
+  if (crc != found.checksum())
     throw Damage{"is damaged: its checksum is wrong"};
   if (header.format != format)
     throw Damage{"is of format " + std::to_string(header.format)
@@ -94,34 +175,46 @@ read_contents(const std::string &file_name, const unsigned int dimension)
   if (header.dimension != dimension)
     throw Damage{"is of a run in " + std::to_string(header.dimension) + " dimensions, not "
                  + std::to_string(dimension) + " (use the parameters.prm that the run wrote)"};
-  return bytes.substr(sizeof header, header.size);
+  bytes.resize(n);
+  bytes.erase(0, sizeof header);
+  return bytes;
 }
 } // namespace
 
 std::size_t
 write_checkpoint_file(const std::string &directory, const unsigned int dimension,
-                      const std::string &contents)
+                      const std::function<void(std::ostream &)> &write_contents)
 {
+  CountingBuffer counter;
+  std::ostream   counted(&counter);
+  write_contents(counted);
   Header header{};
   std::memcpy(header.mark, mark, sizeof mark);
   header.format    = format;
   header.dimension = dimension;
-  header.size      = contents.size();
-  std::string bytes(reinterpret_cast<const char *>(&header), sizeof header);
-  bytes += contents;
-  const std::uint32_t crc = checksum(bytes, bytes.size());
-  bytes.append(reinterpret_cast<const char *>(&crc), sizeof crc);
+  header.size      = counter.n_bytes;
 
+  const std::size_t n_bytes = sizeof header + header.size + sizeof(std::uint32_t);
   const std::string newest = directory + "/checkpoint", next = newest + ".new";
   const auto        require_done = [&](const int error) {
     if (error != 0)
       std::remove(next.c_str());
     require(error == 0, next,
-                   "the checkpoint of " + std::to_string(bytes.size())
+                   "the checkpoint of " + std::to_string(n_bytes)
                      + " bytes cannot be written: " + std::strerror(error),
                    "make room on the disk; the run goes on, and the checkpoint before this one remains");
   };
-  require_done(write_to_disk(next, bytes));
+  const auto write_to_disk = [&]() {
+    FileBuffer   buffer(next);
+    std::ostream file(&buffer);
+    file.write(reinterpret_cast<const char *>(&header), sizeof header);
+    if (file.good())
+      write_contents(file);
+    const std::uint32_t crc = buffer.checksum();
+    file.write(reinterpret_cast<const char *>(&crc), sizeof crc);
+    return buffer.finish();
+  };
+  require_done(write_to_disk());
   require_done(
     std::rename(newest.c_str(), (newest + ".old").c_str()) != 0 && errno != ENOENT ? errno : 0);
   require_done(std::rename(next.c_str(), newest.c_str()) != 0 ? errno : 0);
@@ -131,7 +224,7 @@ write_checkpoint_file(const std::string &directory, const unsigned int dimension
       fsync(folder);
       close(folder);
     }
-  return bytes.size();
+  return n_bytes;
 }
 
 CheckpointContents

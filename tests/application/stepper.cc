@@ -253,7 +253,7 @@ public:
     return result;
   }
 
-  bool finds_another_way() override
+  bool finds_another_way(const Attempt<2>::Outcome) override
   {
     return is_second = true;
   }

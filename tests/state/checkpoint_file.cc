@@ -32,6 +32,12 @@ protected:
     fs::remove_all(directory);
   }
 
+  std::size_t write(const std::string &contents, const unsigned int dimension = 2,
+                    const std::string &folder = "") const
+  {
+    return write_checkpoint_file(directory + folder, dimension,
+                                 [&](std::ostream &stream) { stream << contents; });
+  }
   std::string bytes(const std::string &name = "checkpoint") const
   {
     std::ifstream      file(directory + "/" + name, std::ios::binary);
@@ -66,11 +72,11 @@ protected:
 
 TEST_F(CheckpointFile, WhatIsWrittenComesBackAndTheOneBeforeIsKept)
 {
-  const std::string first("one\0two", 7), second(1000, 'x');
-  const std::size_t n_bytes = write_checkpoint_file(directory, 2, first);
+  const std::string first("one\0two", 7), second(5000000, 'x');
+  const std::size_t n_bytes = write(first);
   EXPECT_EQ(bytes().size(), n_bytes);
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, first);
-  write_checkpoint_file(directory, 2, second);
+  write(second);
   const auto newest = read_checkpoint_file(directory, 2);
   EXPECT_EQ(newest.contents, second);
   EXPECT_EQ(newest.warning, "");
@@ -83,7 +89,7 @@ TEST_F(CheckpointFile, WhatIsWrittenComesBackAndTheOneBeforeIsKept)
 
 TEST_F(CheckpointFile, EveryDamagedByteIsFound)
 {
-  write_checkpoint_file(directory, 2, "contents");
+  write("contents");
   const std::string good = bytes();
   for (std::size_t i = 0; i < good.size(); ++i)
     {
@@ -103,8 +109,8 @@ TEST_F(CheckpointFile, EveryDamagedByteIsFound)
 
 TEST_F(CheckpointFile, ADamagedOneIsPutAsideForTheOneBefore)
 {
-  write_checkpoint_file(directory, 2, "first");
-  write_checkpoint_file(directory, 2, "second");
+  write("first");
+  write("second");
   std::string bad = bytes();
   bad[bad.size() / 2] ^= 1;
   put(bad);
@@ -114,7 +120,7 @@ TEST_F(CheckpointFile, ADamagedOneIsPutAsideForTheOneBefore)
   EXPECT_EQ(bytes("checkpoint.damaged"), bad);
   EXPECT_FALSE(fs::exists(directory + "/checkpoint"));
   // The next one does not push the good one out.
-  write_checkpoint_file(directory, 2, "third");
+  write("third");
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
   fs::remove(directory + "/checkpoint");
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "first");
@@ -125,10 +131,10 @@ TEST_F(CheckpointFile, ErrorsSayWhatIsWrong)
   expect_error("there is no checkpoint");
   put("something else that is long enough to have a header");
   expect_error("is not a checkpoint of scree");
-  write_checkpoint_file(directory, 3, "contents");
+  write("contents", 3);
   fs::remove(directory + "/checkpoint.old");
   expect_error("3 dimensions");
-  write_checkpoint_file(directory, 2, "contents");
+  write("contents");
   std::string other_format = bytes();
   other_format[16]         = 99;
   other_format.resize(other_format.size() - 4);
@@ -144,13 +150,13 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
 {
   if (!fs::exists("/dev/full"))
     GTEST_SKIP() << "no /dev/full";
-  write_checkpoint_file(directory, 2, "first");
-  write_checkpoint_file(directory, 2, "second");
+  write("first");
+  write("second");
   const std::string newest = bytes(), older = bytes("checkpoint.old");
   fs::create_symlink("/dev/full", directory + "/checkpoint.new");
   try
     {
-      write_checkpoint_file(directory, 2, "third");
+      write("third");
       ADD_FAILURE() << "no error";
     }
   catch (const UserError &e)
@@ -160,15 +166,15 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
   EXPECT_EQ(bytes(), newest);
   EXPECT_EQ(bytes("checkpoint.old"), older);
   EXPECT_FALSE(fs::exists(directory + "/checkpoint.new"));
-  EXPECT_THROW(write_checkpoint_file(directory + "/nowhere", 2, "third"), UserError);
+  EXPECT_THROW(write("third", 2, "/nowhere"), UserError);
   // There is room again.
-  write_checkpoint_file(directory, 2, "third");
+  write("third");
   EXPECT_EQ(read_checkpoint_file(directory, 2).contents, "third");
 }
 TEST_F(CheckpointFile, WhateverByteIsDamagedTheOneBeforeIsUsed)
 {
-  write_checkpoint_file(directory, 2, "first");
-  write_checkpoint_file(directory, 2, "second");
+  write("first");
+  write("second");
   const std::string good = bytes(), older = bytes("checkpoint.old");
   for (std::size_t i = 0; i < good.size(); ++i)
     {

@@ -30,7 +30,7 @@ public:
   void          begin() override;
   double        largest_step() const override;
   Attempt<dim>  attempt() override;
-  bool          finds_another_way() override;
+  bool          finds_another_way(const typename Attempt<dim>::Outcome outcome) override;
   StepperRecord recorded() const override;
   void          resume(const StepperRecord &record) override;
 
@@ -48,9 +48,10 @@ public:
   /** The material points at u, and why they moved too far for the geometry; empty: they did not. */
   std::pair<MaterialPoints<dim>, std::string> move_points(const Vector &u) const;
 
+  /** The largest increment of a body that supports do not hold [L] (collective). */
+  double largest_free_motion(const Vector &u) const;
+
 private:
-  /** An attempt with this outcome, after which the state is that of before the step. */
-  Attempt<dim> given_up(Attempt<dim> &&attempt, const typename Attempt<dim>::Outcome outcome);
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
@@ -78,6 +79,7 @@ private:
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt
   bool                   has_slid = false; //!< bodies may have: contact was closed with friction
+  bool                   free_goes_far = false; //!< a free body, in an attempt that was too large
   bool                   has_more_mass = false; //!< K, in a lagged step
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
   StatusChanges status_changes;

@@ -64,12 +64,12 @@ public:
   virtual Attempt<dim> attempt() = 0;
 
   /**
-   * After an attempt that was unsolved: whether there is another way to take the whole step, which
-   * the next attempt() takes.
+   * After an attempt that was unsolved or too large: whether there is another way to take the whole
+   * step, which the next attempt() takes.
    *
    * @throws UserError if there cannot be a solution
    */
-  virtual bool finds_another_way() = 0;
+  virtual bool finds_another_way(const typename Attempt<dim>::Outcome outcome) = 0;
 
   virtual StepperRecord recorded() const                    = 0;
   virtual void          resume(const StepperRecord &record) = 0;

@@ -162,7 +162,7 @@ public:
   std::vector<RigidBodyState<dim>> rigid_states(const Vector &ghosted_u) const;
   const StrongSupports<dim>       &strong_supports() const;
 
-  /** Largest |u| at the nodes of each body (collective). */
+  /** Largest |u| at the nodes of each body, since the geometry last moved (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
 
   /** u with ghost values and hanging nodes, and the field that it is. */

@@ -172,6 +172,7 @@ private:
   std::vector<dealii::FullMatrix<double>>
        resistance_of_supports(const std::vector<Motions> &motions) const;
   void find_unknowns(const DisplacementSpace<dim> &space);
+  void find_start_motions(const DisplacementSpace<dim> &space);
   void find_couplings();
   /** What coordinate k of a free body does to a position. */
   dealii::Tensor<1, dim> motion(const unsigned int free_body, const unsigned int k,
@@ -200,10 +201,10 @@ private:
   double longest_motion() const;
   /** Part of what acts on a free body that may be out of balance: contact acts at points. */
   double tolerance(const unsigned int free_body) const;
-  /** What the coordinates of a free body do to its unknown j, from where u has brought it; null:
-   * from the start of the step. */
+  /** What the coordinates of a free body do to its unknown j, from where u, the owned values, has
+   * brought it; null: from the start of the step. */
   std::array<double, Motions::n_motions> motions_of(const unsigned int free_body,
-                                                    const unsigned int j, const Vector *u) const;
+                                                    const unsigned int j, const double *u) const;
   /** q of the R q nearest to du in the norm of the mass, R the motions_of() (collective). */
   Coordinates rigid_part(const Vector &du, const Vector &mass, const Vector *u) const;
   /** (R^T M R)^-1 of each free body, R its motions_of() (collective). */
@@ -231,8 +232,10 @@ private:
   std::vector<dealii::FullMatrix<double>>      bases; //!< columns: free motions in the rigid ones
   std::vector<unsigned int>                    first; //!< coordinate
   std::vector<std::vector<DofIndex>>           free_unknowns;
+  std::vector<std::vector<unsigned int>>       places; //!< of these unknowns among the owned ones
   std::vector<std::vector<dealii::Point<dim>>> positions;       //!< where these unknowns are
   std::vector<std::vector<unsigned int>>       free_components; //!< of the displacement or pose
+  std::vector<std::vector<double>>             start_motions;   //!< motions_of() without u
   std::vector<unsigned int>                    number_of; //!< of each body among the free ones
   unsigned int                                 n_coordinates = 0;
   std::vector<std::vector<unsigned int>>       coordinates_of_pair; //!< of a, then of b

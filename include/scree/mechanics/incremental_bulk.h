@@ -1,9 +1,11 @@
 #pragma once
 
+#include <scree/discretization/cell_scatter.h>
 #include <scree/mechanics/answered_increment.h>
 #include <scree/mechanics/bulk.h>
 #include <scree/mechanics/increment_volumes.h>
 
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -87,5 +89,7 @@ private:
   const PointEvaluator<dim>  &u_n;
   const IncrementVolumes<dim> projection;
   mutable Answers             last; //!< to the last increment
+  /** Of the tangents, from the first of them on. */
+  mutable std::optional<CellScatter<dim>> scatter;
 };
 } // namespace scree

@@ -66,7 +66,8 @@ public:
   double work(const Vector &u, const Vector &old_u, const Vector &forces,
               const Vector &old_forces) const;
 
-  /** Largest |u| of the corners of a body's box for ghosted u. */
+  /** Largest |u| of the corners of a body's box, on a moving geometry from where they are; u with
+   * ghosts. */
   double largest_displacement(const unsigned int body, const Vector &u) const;
 
   RigidPose<dim> pose(const unsigned int body, const Vector &u) const;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace scree
@@ -10,14 +12,17 @@ namespace scree
  * contents, the contents, and the CRC-32 of all that. Numbers are those of the machine: a
  * checkpoint goes with its kind of processor.
  *
- * Writes `contents` to DIR/checkpoint.new, waits until it is on the disk, and renames it to
- * DIR/checkpoint; the one before is kept as DIR/checkpoint.old, so that one of the two is complete
- * at any moment. Returns the number of bytes of the file.
+ * Writes to DIR/checkpoint.new, waits until it is on the disk, and renames it to DIR/checkpoint;
+ * the one before is kept as DIR/checkpoint.old, so that one of the two is complete at any moment.
+ * Returns the number of bytes of the file.
+ *
+ * @param write_contents is called twice, to count the bytes and to write them piece by piece: no
+ * copy of all is made
  *
  * @throws UserError if the file cannot be written; then the others are as they were
  */
 std::size_t write_checkpoint_file(const std::string &directory, const unsigned int dimension,
-                                  const std::string &contents);
+                                  const std::function<void(std::ostream &)> &write_contents);
 
 /** What is read of the checkpoints of a directory. */
 struct CheckpointContents
