@@ -96,17 +96,20 @@ public:
     matrix.compress(dealii::VectorOperation::insert);
   }
 
-  void solve(Vector &displacement) const
+  void solve(const std::vector<Body<dim>> &bodies, Vector &displacement) const
   {
     dealii::TrilinosWrappers::PreconditionSSOR preconditioner;
     preconditioner.initialize(matrix);
+    std::array<Vector, dim> guess = first_guess(bodies);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        Vector                   values(nodes.owned, communicator);
-        const double             norm = loads[d].l2_norm();
+        Vector                  &values = guess[d];
+        const double             norm   = loads[d].l2_norm();
         dealii::SolverControl    control(1000, 1e-14 * norm, false, false);
         dealii::SolverCG<Vector> solver(control);
-        if (norm > 0.)
+        if (norm == 0.)
+          values = 0.;
+        else
           try
             {
               solver.solve(matrix, values, loads[d], preconditioner);
@@ -124,6 +127,32 @@ public:
   }
 
 private:
+  /** What the lattices of the bodies hold of the displacement: right to their interpolation. */
+  std::array<Vector, dim> first_guess(const std::vector<Body<dim>> &bodies) const
+  {
+    std::array<Vector, dim> result;
+    for (Vector &values : result)
+      values.reinit(nodes.owned, communicator);
+    const DisplacementSpace<dim> &space = nodes.space;
+    for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
+      {
+        const auto &moved_by = bodies[space.cells()[a].body].displacement;
+        if (moved_by.is_empty())
+          continue;
+        const auto of_cell = nodes.of_cell(a);
+        for (unsigned int i = 0; i < of_cell.size(); ++i)
+          if (nodes.owned.is_element(of_cell[i]) && !nodes.constraints.is_constrained(of_cell[i]))
+            {
+              const auto u = moved_by(space.position(a, space.basis.node(i)));
+              for (unsigned int d = 0; d < dim; ++d)
+                result[d](of_cell[i]) = u[d];
+            }
+      }
+    for (Vector &values : result)
+      values.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
   void set_up_matrix()
   {
     dealii::DynamicSparsityPattern pattern(nodes.owned.size(), nodes.owned.size(), nodes.relevant);
@@ -228,22 +257,22 @@ locate_points(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &po
 
 template <int dim>
 dealii::TrilinosWrappers::MPI::Vector
-fit_displacement(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points,
-                 const std::vector<PointInCell<dim>> &locations)
+fit_displacement(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+                 const MaterialPoints<dim> &points, const std::vector<PointInCell<dim>> &locations)
 {
   Vector displacement(space.owned(), space.grid.communicator());
   if (space.n_dofs() == space.n_trailing()) // all bodies are rigid
     return displacement;
   const NodeNumbering<dim> nodes(space);
-  Fit<dim>(nodes, points, locations).solve(displacement);
+  Fit<dim>(nodes, points, locations).solve(bodies, displacement);
   return displacement;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template std::vector<PointInCell<dim>>         locate_points(const DisplacementSpace<dim> &, \
-                                                               const MaterialPoints<dim> &);   \
-  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                             \
-    const DisplacementSpace<dim> &, const MaterialPoints<dim> &,                               \
+#define SCREE_INSTANTIATE(dim)                                                                   \
+  template std::vector<PointInCell<dim>>         locate_points(const DisplacementSpace<dim> &,   \
+                                                               const MaterialPoints<dim> &);     \
+  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                               \
+    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, const MaterialPoints<dim> &, \
     const std::vector<PointInCell<dim>> &);
 
 SCREE_INSTANTIATE(2)

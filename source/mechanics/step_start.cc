@@ -142,7 +142,7 @@ StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadratu
     , displacements(space)
     , cloud(points.n_internal())
 {
-  fitted             = fit_displacement(space, points, locations);
+  fitted             = fit_displacement(space, bodies, points, locations);
   Vector distributed = fitted;
   space.hanging_constraints().distribute(distributed);
   Vector ghosted(space.owned(), space.relevant(), space.grid.communicator());

@@ -48,7 +48,12 @@ struct Ranges
 MatrixEntries
 matrix_entries(const Epetra_CrsMatrix &A, const bool symmetric)
 {
-  MatrixEntries result;
+  MatrixEntries     result;
+  const std::size_t most = symmetric ? (A.NumMyNonzeros() + A.NumMyRows()) / 2 : A.NumMyNonzeros();
+  result.rows.reserve(most);
+  result.columns.reserve(most);
+  result.values.reserve(most);
+  const int *global_columns = A.ColMap().MyGlobalElements();
   for (int row = 0; row < A.NumMyRows(); ++row)
     {
       int     n_entries = 0, *column = nullptr;
@@ -57,7 +62,7 @@ matrix_entries(const Epetra_CrsMatrix &A, const bool symmetric)
       const int global_row = A.RowMap().GID(row);
       for (int i = 0; i < n_entries; ++i)
         {
-          const int global_column = A.ColMap().GID(column[i]);
+          const int global_column = global_columns[column[i]];
           if (symmetric && global_column > global_row)
             continue;
           result.rows.push_back(global_row);

@@ -148,7 +148,7 @@ TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
       for (std::size_t p = 0; p < points.size(); ++p)
         points.reference_position[p]
           -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;
-      const Vector fit         = fit_displacement(*plain.cut.space, points, cells);
+      const Vector fit = fit_displacement(*plain.cut.space, plain.cut.bodies, points, cells);
       const auto   fit_ghosted = plain.equilibrium.at_points(fit);
       double       error = 0., norm = 0.;
       for (std::size_t p = 0; p < points.size(); ++p)

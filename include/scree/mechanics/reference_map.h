@@ -1,5 +1,6 @@
 #pragma once
 
+#include <scree/bodies/body.h>
 #include <scree/discretization/point_evaluator.h>
 #include <scree/points/material_points.h>
 
@@ -28,11 +29,12 @@ std::vector<PointInCell<dim>> locate_points(const DisplacementSpace<dim> &space,
  * gradient adds up from step to step (reference map technique: Kamrin, Rycroft, Nave, J. Mech.
  * Phys. Solids 60, 2012, there with finite differences). Collective.
  *
+ * @param bodies    whose BodyGeometry::displacement the search begins with
  * @param locations of the points, from locate_points()
  * @return owned unknowns [L]; zero for those that belong to no node
  */
 template <int dim>
 dealii::TrilinosWrappers::MPI::Vector
-fit_displacement(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points,
-                 const std::vector<PointInCell<dim>> &locations);
+fit_displacement(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+                 const MaterialPoints<dim> &points, const std::vector<PointInCell<dim>> &locations);
 } // namespace scree
