@@ -12,7 +12,7 @@ from .style import plt
 MOST_FRAMES = 120
 
 
-def draw(run, field, warp, is_raw):
+def draw(run, field, warp, is_raw, range_of_colours=None):
     """Writes bodies_FIELD.gif and, where ffmpeg is installed, bodies_FIELD.mp4; the paths. One range of colours, one window
     and one magnification for all frames; of more than MOST_FRAMES steps every n-th is drawn."""
     steps = sorted(run.body_files)
@@ -21,7 +21,7 @@ def draw(run, field, warp, is_raw):
     steps = steps[::-1][::-(-len(steps) // MOST_FRAMES)][::-1]
     last = BodyPicture(run, field, steps[-1], warp, is_raw)
     pictures = [BodyPicture(run, field, step, last.factor, is_raw) for step in steps]
-    scale = min(p.limits[0] for p in pictures), max(p.limits[1] for p in pictures)
+    scale = range_of_colours or (min(p.limits[0] for p in pictures), max(p.limits[1] for p in pictures))
     box = np.min([p.deformed.min(axis=0) for p in pictures], axis=0), np.max([p.deformed.max(axis=0) for p in pictures], axis=0)
     frames = [image_of(picture.draw(scale, box)) for picture in pictures]
     # Layouts differ by a pixel or so with the length of labels.

@@ -124,7 +124,7 @@ def quantity_of(field):
 class BodyPicture:
     """The deformed bodies of one step, coloured by a field: where they are drawn, the values, and their range."""
 
-    def __init__(self, run, field, step, warp, is_raw=False):
+    def __init__(self, run, field, step, warp, is_raw=False, range_of_colours=None):
         self.run, self.field, self.step = run, field, step
         self.mesh = mesh = run.mesh(step)
         self.contact = run.contact(step) if step in run.contact_files else None
@@ -136,7 +136,7 @@ class BodyPicture:
         self.values = values if is_raw else recovered(mesh, values)
         coloured = self.values[self.shown] if self.shown.any() else np.zeros(1)
         self.extremes = coloured.min(), coloured.max()
-        self.limits = limits(coloured)
+        self.limits = range_of_colours or limits(coloured)
 
     @property
     def title(self):
@@ -208,12 +208,12 @@ def extend(extremes, low, high):
         (bool(extremes[0] < low - tolerance), bool(extremes[1] > high + tolerance))]
 
 
-def draw(run, field, step, warp, is_raw=False):
+def draw(run, field, step, warp, is_raw=False, range_of_colours=None):
     """Writes bodies_FIELD.png (bodies_FIELD_NNNN.png for a step asked for), in 3D section_FIELD.png too; the paths."""
     if not run.body_files:
         return []
     suffix = "" if step is None else f"_{step:04d}"
-    picture = BodyPicture(run, field, run.chosen_step(run.body_files, step), warp, is_raw)
+    picture = BodyPicture(run, field, run.chosen_step(run.body_files, step), warp, is_raw, range_of_colours)
     paths = [save(picture.draw(), run.directory / f"bodies_{field}{suffix}.png")]
     if picture.mesh.dim == 3:
         paths.append(save(picture.draw_section(), run.directory / f"section_{field}{suffix}.png"))

@@ -73,6 +73,10 @@ def draw_contact(run, step, references, pairs=None):
     names, left_out = pairs_to_draw(table, pairs)
     if not names:
         return None
+    if not table["pressure"].any():
+        time = run.time_of(step)
+        print(f"contact: no bodies touch{'' if time is None else f' at time {short(time)}'}: no contact.png (--step N draws others)")
+        return None
     n_columns = 1 if len(names) == 1 else 2
     n_rows = -(-len(names) // n_columns)
     figure, panels = plt.subplots(n_rows, n_columns, squeeze=False,

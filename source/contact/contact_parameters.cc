@@ -109,7 +109,8 @@ declare_law(ContactPairParameters &parameters, const ParameterSection &section)
       for (const std::string &entry : law.entries)
         if (section.is_set(entry) && std::find(used.begin(), used.end(), entry) == used.end())
           section.error(entry, "the law " + parameters.kind->name + " does not use it",
-                        "remove it, or set Law = " + law.name);
+                        "remove it (--set \"" + section.path() + "/" + entry
+                          + "=\" does), or set Law = " + law.name);
     }
 }
 } // namespace

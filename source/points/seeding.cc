@@ -165,9 +165,23 @@ PointSeeding<dim>::add_cell(MaterialPoints<dim> &points, const unsigned int acti
 {
   const unsigned int body    = space.cells()[active_cell].body;
   const double       spacing = space.cell_size(active_cell) / n_per_direction;
+  const double       rho     = density[body] * whole_volume_ratio(active_cell, cell_points);
   for (std::size_t q = 0; q < cell_points.points.size(); ++q)
     points.add(space.position(active_cell, cell_points.points[q]), body, cell_points.weights[q],
-               spacing, density[body] * cell_points.weights[q]);
+               spacing, rho * cell_points.weights[q]);
+}
+
+template <int dim>
+double
+PointSeeding<dim>::whole_volume_ratio(const unsigned int     active_cell,
+                                      const CellPoints<dim> &cell_points) const
+{
+  const auto &surface = quadrature.surface;
+  double      strips  = 0.;
+  for (unsigned int q = surface.begin[active_cell]; q < surface.begin[active_cell + 1]; ++q)
+    strips += quadrature.strip_widths[q] * surface.weights[q];
+  const double volume = std::accumulate(cell_points.weights.begin(), cell_points.weights.end(), 0.);
+  return volume > 0. ? std::max(0., 1. + strips / volume) : 1.;
 }
 
 /** The bulk quadrature of an active cell, weights in physical measure. */

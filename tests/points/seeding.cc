@@ -34,8 +34,8 @@ two_balls(const unsigned int degree, const std::string &grid)
          + body("a", "-0.87") + body("b", "0.84") + "end\n";
 }
 
-// Volumes and masses of each cell and body against the cut quadrature; all points in the body and
-// in their cell; enough of them.
+// Volumes of each cell and body against the cut quadrature, masses against the exact volume; all
+// points in the body and in their cell; enough of them.
 template <int dim>
 void
 check_seeding(const unsigned int degree, const std::string &grid)
@@ -65,7 +65,8 @@ check_seeding(const unsigned int degree, const std::string &grid)
           const int a = model.space->nearest_active_cell(points.position[i], points.body[i]);
           ASSERT_GE(a, 0);
           EXPECT_GT(points.initial_volume[i], 0.);
-          EXPECT_EQ(points.mass[i], density[points.body[i]] * points.initial_volume[i]);
+          if (!model.space->cells()[a].is_cut)
+            EXPECT_EQ(points.mass[i], density[points.body[i]] * points.initial_volume[i]);
           volume[a] += points.initial_volume[i];
           const double h = model.grid.cells()[model.space->cells()[a].grid_cell].size;
           const double phi
@@ -88,7 +89,11 @@ check_seeding(const unsigned int degree, const std::string &grid)
       for (unsigned int b = 0; b < 2; ++b)
         {
           EXPECT_NEAR(totals[b].volume, total[b], 1e-12);
-          EXPECT_NEAR(totals[b].mass, density[b] * total[b], 1e-12);
+          const double whole
+            = dim == 2 ? numbers::PI * 0.83 * 0.83 : 4. / 3. * numbers::PI * std::pow(0.83, 3);
+          std::cout << "    mass " << totals[b].mass / (density[b] * whole) - 1. << ", volume "
+                    << total[b] / whole - 1. << std::endl;
+          EXPECT_NEAR(totals[b].mass, density[b] * whole, (dim == 2 ? 1e-3 : 4e-3) * whole);
         }
     }
 }

@@ -7,7 +7,8 @@ namespace scree
 {
 /**
  * Places material points in the active cells of this process, undeformed, with volumes that sum to
- * the cut quadrature's volume of the body in every cell (theory.md section 9).
+ * the cut quadrature's volume of the body in every cell (theory.md section 9). Masses are those of
+ * the cells up to the exact boundary, see CutQuadrature::strip_widths.
  */
 template <int dim>
 class PointSeeding
@@ -32,6 +33,9 @@ private:
   void            add_cell(MaterialPoints<dim> &points, const unsigned int active_cell,
                            const CellPoints<dim> &cell_points, const unsigned int n_per_direction) const;
   CellPoints<dim> quadrature_points(const unsigned int active_cell) const;
+  /** The volume of the body in a cell, with the strips up to its boundary, over that of points. */
+  double whole_volume_ratio(const unsigned int     active_cell,
+                            const CellPoints<dim> &cell_points) const;
 
   const DisplacementSpace<dim> &space;
   const LevelSetNodes<dim>     &level_set_nodes;
