@@ -145,18 +145,8 @@ ImplicitStepper<dim>::attempt()
   if (model.is_moving())
     {
       problem.equilibrium().turn(u);
-      const Timings::Scope scope(run_log.timings, "material points");
-      std::string          reason;
-      std::tie(attempt.points, reason) = move_points(u);
-      if (!reason.empty())
-        {
-          run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(time)
-                           + " is too large: " + reason);
-          free_goes_far = largest_free_motion(u)
-                          > parameters.moving.largest_motion * problem.grid.finest_size();
-          attempt.outcome = Attempt<dim>::Outcome::too_large;
-          return attempt;
-        }
+      if (!take_points(u, attempt))
+        return attempt;
     }
   else
     require_small_rotations(problem, balances, model.state(), time);
@@ -177,6 +167,23 @@ ImplicitStepper<dim>::attempt()
   has_slid        = true;
   relaxation.finish();
   return attempt;
+}
+
+template <int dim>
+bool
+ImplicitStepper<dim>::take_points(const Vector &u, Attempt<dim> &attempt)
+{
+  const Timings::Scope scope(run_log.timings, "material points");
+  std::string          reason;
+  std::tie(attempt.points, reason) = move_points(u);
+  if (reason.empty())
+    return true;
+  run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(record.time)
+                   + " is too large: " + reason);
+  free_goes_far = largest_free_motion(u)
+                  > parameters.moving.largest_motion * model.problem().grid.finest_size();
+  attempt.outcome = Attempt<dim>::Outcome::too_large;
+  return false;
 }
 
 template <int dim>

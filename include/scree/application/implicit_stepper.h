@@ -55,7 +55,9 @@ private:
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
-  void         take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
+  void take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
+  /** The material points after the step; false, with the outcome, if they moved too far. */
+  bool         take_points(const Vector &u, Attempt<dim> &attempt);
   Newton       newton(const bool is_patient);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
