@@ -76,7 +76,7 @@ ImplicitStepper<dim>::finds_another_way(const typename Attempt<dim>::Outcome out
     {
       if (is_unsolved)
         require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
-      if ((is_unsolved || free_goes_far) && relaxation.may_help() && relaxation.run())
+      if ((is_unsolved || has_slipped) && relaxation.may_help() && relaxation.run())
         return true;
     }
   if (!is_unsolved)
@@ -165,6 +165,7 @@ ImplicitStepper<dim>::attempt()
   attempt.outcome = Attempt<dim>::Outcome::accepted;
   has_turned      = false;
   has_slid        = true;
+  free_motion     = std::numeric_limits<double>::infinity();
   relaxation.finish();
   return attempt;
 }
@@ -180,8 +181,12 @@ ImplicitStepper<dim>::take_points(const Vector &u, Attempt<dim> &attempt)
     return true;
   run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(record.time)
                    + " is too large: " + reason);
-  free_goes_far = largest_free_motion(u)
-                  > parameters.moving.largest_motion * model.problem().grid.finest_size();
+  // A body that slips out of contact goes as far in half a step.
+  constexpr double as_far = 0.75;
+  const double     motion = largest_free_motion(u);
+  has_slipped             = motion > as_far * free_motion
+                && motion > parameters.moving.largest_motion * model.problem().grid.finest_size();
+  free_motion     = motion;
   attempt.outcome = Attempt<dim>::Outcome::too_large;
   return false;
 }

@@ -27,6 +27,7 @@ struct Arrays
 template <int dim>
 CellScatter<dim>::CellScatter(const DisplacementSpace<dim> &space, const Matrix &matrix)
     : space(space)
+    , graph(matrix.trilinos_matrix().Graph())
     , first(space.n_owned_cells(), general)
 {
   const Arrays arrays(matrix);
@@ -42,6 +43,13 @@ CellScatter<dim>::CellScatter(const DisplacementSpace<dim> &space, const Matrix 
       else
         positions.resize(end);
     }
+}
+
+template <int dim>
+bool
+CellScatter<dim>::fits(const Matrix &matrix) const
+{
+  return matrix.trilinos_matrix().Graph().DataPtr() == graph.DataPtr();
 }
 
 template <int dim>
@@ -89,6 +97,7 @@ void
 CellScatter<dim>::add(const unsigned int active_cell, const dealii::FullMatrix<double> &block,
                       Matrix &matrix) const
 {
+  Assert(fits(matrix), dealii::ExcMessage("The matrix has another pattern."));
   const unsigned int n = space.basis.n_nodes;
   if (first[active_cell] == general)
     {

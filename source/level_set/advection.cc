@@ -268,35 +268,66 @@ advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &du, const Incre
   return count;
 }
 
+namespace
+{
+/** Calls f(first, n) for the nodes between the runs of a set. */
+template <int dim, typename F>
+void
+for_each_gap(const NodeSet<dim> &nodes, const std::size_t n_all, const F &f)
+{
+  std::size_t end = 0;
+  for (const NodeRun &run : nodes.runs)
+    {
+      if (run.node > end)
+        f(end, run.node - end);
+      end = run.node + run.n;
+    }
+  if (n_all > end)
+    f(end, n_all - end);
+}
+} // namespace
+
 template <int dim>
 AdvectionCount
 image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const NodalVectors<dim> &du,
-                 const NodalVectors<dim> &displacement, NodalVectors<dim> *moved_by)
+                 const NodalVectors<dim> &displacement, NodalVectors<dim> &moved_by,
+                 const double half_width)
 {
-  if (moved_by)
-    for (auto &component : *moved_by)
-      component.resize(lattice.values().size());
+  const std::size_t n_all = lattice.values().size();
   assert_sizes<dim>(lattice, du);
   assert_sizes<dim>(lattice, displacement);
-  const NodeSet<dim> nodes     = all_nodes(HaloGrid<dim>{lattice.n_nodes(), lattice.spacing()});
-  NodalVectors<dim>  increment = packed<dim>(nodes, du), u;
+  for (auto &component : moved_by)
+    component.resize(n_all);
+  const HaloGrid<dim> grid{lattice.n_nodes(), lattice.spacing()};
+  const NodeSet<dim>  nodes     = nodes_near_contour(grid, lattice.values(), half_width);
+  NodalVectors<dim>   increment = packed<dim>(nodes, du), u;
   largest_speed<dim>(increment, 0, nodes.n_nodes); // throws unless finite
   const std::size_t n_unconverged = map_velocity<dim>(nodes, du, 1., increment);
   for (unsigned int d = 0; d < dim; ++d)
     values_at_departure<dim>(nodes, displacement[d], increment, u[d]);
+  const auto set
+    = [&](const std::size_t node, const Tensor<1, dim> &way, const unsigned int degree) {
+        for (unsigned int d = 0; d < dim; ++d)
+          moved_by[d][node] = way[d];
+        lattice.values()[node] = initial.value(lattice.node(lattice.index(node)) - way, degree);
+      };
   for (const NodeRun &run : nodes.runs)
     for (int i = 0; i < run.n; ++i)
       {
-        Point<dim> X = lattice.node(lattice.index(run.node + i));
+        Tensor<1, dim> way;
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double way = increment[d][run.packed + i] + u[d][run.packed + i];
-            X[d] -= way;
-            if (moved_by)
-              (*moved_by)[d][run.node + i] = way;
-          }
-        lattice.values()[run.node + i] = initial.value(X, 3);
+          way[d] = increment[d][run.packed + i] + u[d][run.packed + i];
+        set(run.node + i, way, 3);
       }
+  for_each_gap(nodes, n_all, [&](const std::size_t first, const std::size_t n) {
+    for (std::size_t node = first; node < first + n; ++node)
+      {
+        Tensor<1, dim> way;
+        for (unsigned int d = 0; d < dim; ++d)
+          way[d] = du[d][node] + displacement[d][node];
+        set(node, way, 1);
+      }
+  });
   return {1, n_unconverged, nodes.n_nodes};
 }
 
@@ -308,9 +339,9 @@ image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial, const Nodal
                                       const AdvectionScheme &);                                 \
   template AdvectionCount advect_increment<dim>(Lattice<dim> &, const NodalVectors<dim> &,      \
                                                 IncrementMotion, const AdvectionScheme &);      \
-  template AdvectionCount image_of_initial<dim>(Lattice<dim> &, const Lattice<dim> &,           \
-                                                const NodalVectors<dim> &,                      \
-                                                const NodalVectors<dim> &, NodalVectors<dim> *);
+  template AdvectionCount image_of_initial<dim>(                                                \
+    Lattice<dim> &, const Lattice<dim> &, const NodalVectors<dim> &, const NodalVectors<dim> &, \
+    NodalVectors<dim> &, double);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -34,9 +34,10 @@ MaterialPoints<dim>
 CutCellGauss<dim>::moved(const MaterialPoints<dim> &points, const IncrementalBulk<dim> &bulk,
                          const PointEvaluator<dim> &u) const
 {
-  return moved_points<dim>(
-    points, start.material_points(),
-    [&](const std::size_t p) { return start.history_of_material_point(p); }, this->bodies, bulk, u);
+  std::vector<PointHistory<dim>> histories;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    histories.push_back(start.history_of_material_point(p));
+  return moved_points<dim>(points, start.material_points(), histories, this->bodies, bulk, u);
 }
 
 template class CutCellGauss<2>;

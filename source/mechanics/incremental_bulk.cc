@@ -169,36 +169,63 @@ IncrementalBulk<dim>::add_internal_forces(const PointEvaluator<dim> &u, Vector &
 
 namespace
 {
-/** Adds weight A_ijkl dN_a/dx_j dN_b/dx_l in row (a, i) and column (b, k). */
+/** A cell's stiffness, a matrix over the nodes for each pair of components: the inner loops run
+ * over neighbouring numbers. */
 template <int dim>
-void
-add_stiffness(const dealii::Tensor<4, dim> &A, const double *shape, const unsigned int n,
-              const double weight, dealii::FullMatrix<double> &block)
+struct StiffnessByComponents
 {
-  for (unsigned int b = 0; b < n; ++b)
-    {
-      // dP/du_k at node b
-      double dP[dim][dim][dim];
+  static constexpr unsigned int n_max = max_nodes_per_cell<dim>;
+
+  double entries[dim][dim][n_max][n_max];
+  double shape[dim][n_max];
+
+  void clear(const unsigned int n)
+  {
+    for (auto &row : entries)
+      for (auto &matrix : row)
+        for (unsigned int a = 0; a < n; ++a)
+          std::fill_n(matrix[a], n, 0.);
+  }
+
+  /** Adds weight A_ijkl dN_a/dx_j dN_b/dx_l for the components i, k and the nodes a, b. */
+  void add(const dealii::Tensor<4, dim> &A, const double *gradients, const unsigned int n,
+           const double weight)
+  {
+    for (unsigned int b = 0; b < n; ++b)
+      for (unsigned int l = 0; l < dim; ++l)
+        shape[l][b] = gradients[b * dim + l];
+    for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            {
-              double sum = 0.;
-              for (unsigned int l = 0; l < dim; ++l)
-                sum += A[i][j][k][l] * shape[b * dim + l];
-              dP[k][i][j] = weight * sum;
-            }
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            double *row = entries[i][k][a];
+            double  factor[dim];
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                double sum = 0.;
+                for (unsigned int j = 0; j < dim; ++j)
+                  sum += A[i][j][k][l] * shape[j][a];
+                factor[l] = weight * sum;
+              }
+            for (unsigned int b = 0; b < n; ++b)
+              {
+                double sum = factor[0] * shape[0][b];
+                for (unsigned int l = 1; l < dim; ++l)
+                  sum += factor[l] * shape[l][b];
+                row[b] += sum;
+              }
+          }
+  }
+
+  void copy_to(dealii::FullMatrix<double> &block, const unsigned int n) const
+  {
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int b = 0; b < n; ++b)
           for (unsigned int k = 0; k < dim; ++k)
-            {
-              double sum = 0.;
-              for (unsigned int j = 0; j < dim; ++j)
-                sum += dP[k][i][j] * shape[a * dim + j];
-              block(a * dim + i, b * dim + k) += sum;
-            }
-    }
-}
+            block(a * dim + i, b * dim + k) = entries[i][k][a][b];
+  }
+};
 } // namespace
 
 template <int dim>
@@ -209,17 +236,18 @@ IncrementalBulk<dim>::add_tangent(const PointEvaluator<dim> &u, Matrix &matrix) 
   last.expects_tangent         = true;
   const unsigned int         n = space.basis.n_nodes;
   dealii::FullMatrix<double> block(n * dim, n * dim);
-  if (!scatter)
+  StiffnessByComponents<dim> stiffness;
+  if (!scatter || !scatter->fits(matrix)) // contact may be sought again on the same bulk
     scatter.emplace(space, matrix);
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
       const CellRule<dim> cell  = points.rule(a);
       const double        scale = cell.weight_scale / std::pow(space.cell_size(a), 2);
       const double       *shape = points.unit_gradients(a);
-      block                     = 0.;
+      stiffness.clear(n);
       for (unsigned int q = 0; q < cell.n_points; ++q, shape += n * dim)
-        add_stiffness<dim>(tangents[points.first_point(a) + q], shape, n, cell.weights[q] * scale,
-                           block);
+        stiffness.add(tangents[points.first_point(a) + q], shape, n, cell.weights[q] * scale);
+      stiffness.copy_to(block, n);
       if (projected_shares[space.cells()[a].body] > 0.)
         projection.add_couplings(a, last.of_volumes, block);
       scatter->add(a, block, matrix);

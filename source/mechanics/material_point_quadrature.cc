@@ -66,9 +66,10 @@ MaterialPointQuadrature<dim>::moved(const MaterialPoints<dim>  &before,
                                     const IncrementalBulk<dim> &bulk,
                                     const PointEvaluator<dim>  &u) const
 {
-  return moved_points<dim>(
-    before, start.material_points(), [&](const std::size_t p) { return start.carried_history(p); },
-    this->bodies, bulk, u);
+  std::vector<PointHistory<dim>> histories;
+  for (std::size_t p = 0; p < before.size(); ++p)
+    histories.push_back(start.carried_history(p));
+  return moved_points<dim>(before, start.material_points(), histories, this->bodies, bulk, u);
 }
 
 template class MaterialPointQuadrature<2>;

@@ -48,41 +48,48 @@ distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParam
 template <int dim>
 MaterialPoints<dim>
 moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCell<dim>> &places,
-             const std::function<PointHistory<dim>(std::size_t)> &history_of,
-             const std::vector<Body<dim>> &bodies, const IncrementalBulk<dim> &bulk,
-             const PointEvaluator<dim> &u)
+             const std::vector<PointHistory<dim>> &histories, const std::vector<Body<dim>> &bodies,
+             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u)
 {
+  constexpr std::size_t               most    = 256; // points that a law is asked at once
   MaterialPoints<dim>                 points  = old_points;
   const auto                         &volumes = bulk.cell_volumes(u);
   std::vector<dealii::Tensor<1, dim>> increments(points.size());
   std::vector<dealii::Tensor<2, dim>> gradients(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p)
+  std::vector<IncrementStart>         starts(most);
+  std::vector<dealii::Tensor<2, dim>> F_D(most);
+  std::vector<IncrementResponse<dim>> responses(most);
+  for (std::size_t first = 0, n; first < points.size(); first += n)
     {
-      const PointInCell<dim> &location = places[p];
-      const auto              cell     = location.active_cell;
-      const auto              here     = u.evaluate(location);
-      increments[p]                    = here.value;
-      gradients[p]                     = here.gradient;
-
-      const auto             &law     = *bodies[points.body[p]].law;
-      const PointHistory<dim> history = history_of(p);
-      const IncrementStart    start   = law.start(history);
-      dealii::Tensor<2, dim>  F_D     = gradients[p];
-      for (unsigned int d = 0; d < dim; ++d)
-        F_D[d][d] += 1.;
-      F_D = bulk.volume_projection().projected_increment(cell, location.unit_point, volumes[cell],
-                                                         F_D, start);
-      IncrementResponse<dim> response;
-      law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(&F_D, 1),
-                  dealii::ArrayView<const IncrementStart>(&start, 1),
-                  dealii::ArrayView<IncrementResponse<dim>>(&response, 1), {});
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          points.stress[p][i][j] = response.cauchy[i][j];
-      if (points.n_internal() > 0)
+      const auto &law = *bodies[points.body[first]].law;
+      for (n = 0; n < most && first + n < points.size(); ++n)
         {
-          const PointHistory<dim> next = law.finish(history, F_D, response);
-          store_internal(law, next, &points.internal[p * points.n_internal()]);
+          const std::size_t p = first + n;
+          if (points.body[p] != points.body[first])
+            break;
+          const PointInCell<dim> &place = places[p];
+          const auto              here  = u.evaluate(place);
+          increments[p]                 = here.value;
+          gradients[p]                  = here.gradient;
+          starts[n]                     = law.start(histories[p]);
+          F_D[n]                        = gradients[p];
+          for (unsigned int d = 0; d < dim; ++d)
+            F_D[n][d][d] += 1.;
+          F_D[n] = bulk.volume_projection().projected_increment(
+            place.active_cell, place.unit_point, volumes[place.active_cell], F_D[n], starts[n]);
+        }
+      law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(F_D.data(), n),
+                  dealii::ArrayView<const IncrementStart>(starts.data(), n),
+                  dealii::ArrayView<IncrementResponse<dim>>(responses.data(), n), {});
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          const std::size_t p = first + i;
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = d; e < dim; ++e)
+              points.stress[p][d][e] = responses[i].cauchy[d][e];
+          if (points.n_internal() > 0)
+            store_internal(law, law.finish(histories[p], F_D[i], responses[i]),
+                           &points.internal[p * points.n_internal()]);
         }
     }
   points.move(increments, gradients);
@@ -97,7 +104,7 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
                                                  const MovingGeometryParameters &, MaterialPoints<dim> &); \
   template MaterialPoints<dim> moved_points(                                                               \
     const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &,                                    \
-    const std::function<PointHistory<dim>(std::size_t)> &, const std::vector<Body<dim>> &,                 \
+    const std::vector<PointHistory<dim>> &, const std::vector<Body<dim>> &,                                \
     const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -384,13 +384,17 @@ move_level_set(Body<dim> &body, NodalVectors<dim> v, NodalVectors<dim> u,
 
   if (has_contour(phi))
     {
+      // All nodes of cells that the contour cuts are near; the slope may be up to 2.
+      const double near
+        = 2. * std::max(options.margin, 16. * phi.spacing()) + result.largest_increment;
       const std::vector<double> old = phi.values();
       if (options.motion == IncrementMotion::reference_map)
         {
           NodalVectors<dim> moved_by;
           continue_off_body<dim>(phi, known_nodes<dim>(u), box, u);
           result.n_unconverged
-            = image_of_initial<dim>(phi, *body.initial_level_set, v, u, &moved_by).n_unconverged;
+            = image_of_initial<dim>(phi, *body.initial_level_set, v, u, moved_by, near)
+                .n_unconverged;
           body.displacement = ExtendedIncrement<dim>(phi, std::move(moved_by));
           // Interpolants of the initial level set would round corners, as would distances made of
           // them: the strip of reinitialise() is within this reach.
@@ -405,7 +409,9 @@ move_level_set(Body<dim> &body, NodalVectors<dim> v, NodalVectors<dim> u,
       result.n_islands = remove_islands<dim>(phi, old, known, v);
       ReinitialisationOptions reinitialisation;
       reinitialisation.tolerance = options.reinitialisation_tolerance;
-      result.contour_motion      = reinitialise(phi, reinitialisation).contour_motion;
+      if (options.motion == IncrementMotion::reference_map)
+        reinitialisation.band = near / phi.spacing();
+      result.contour_motion = reinitialise(phi, reinitialisation).contour_motion;
     }
   result.increment = ExtendedIncrement<dim>(phi, std::move(v));
   result.is_reboxed |= follow_body(phi, options.margin, box);

@@ -1,7 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/state/checkpoint_file.h>
 
-#include <boost/crc.hpp>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include <streambuf>
 #include <unistd.h>
 #include <vector>
+#include <zlib.h>
 
 namespace scree
 {
@@ -56,7 +56,8 @@ protected:
   }
 };
 
-/** Writes to a file in pieces and holds the CRC-32 of what was written. */
+/** Writes to a file in pieces and holds the CRC-32 of what was written. The stream never fails, for
+ * archives throw then: finish() tells the error. */
 class FileBuffer : public std::streambuf
 {
 public:
@@ -77,7 +78,7 @@ public:
   std::uint32_t checksum()
   {
     sync();
-    return crc.checksum();
+    return crc;
   }
 
   /** Waits until all is on the disk and closes the file. Returns the first error number, 0: none.
@@ -96,8 +97,7 @@ public:
 protected:
   int_type overflow(const int_type byte) override
   {
-    if (sync() != 0)
-      return traits_type::eof();
+    sync();
     return traits_type::eq_int_type(byte, traits_type::eof())
              ? traits_type::not_eof(byte)
              : sputc(traits_type::to_char_type(byte));
@@ -107,13 +107,13 @@ protected:
   {
     write_out(pbase(), pptr() - pbase());
     setp(piece.data(), piece.data() + piece.size());
-    return error == 0 ? 0 : -1;
+    return 0;
   }
 
   std::streamsize xsputn(const char *bytes, const std::streamsize n) override
   {
-    if (n > epptr() - pptr() && sync() != 0)
-      return 0;
+    if (n > epptr() - pptr())
+      sync();
     if (n > epptr() - pptr())
       write_out(bytes, n);
     else
@@ -121,13 +121,13 @@ protected:
         std::memcpy(pptr(), bytes, n);
         pbump(static_cast<int>(n));
       }
-    return error == 0 ? n : 0;
+    return n;
   }
 
 private:
   void write_out(const char *bytes, const std::size_t n)
   {
-    crc.process_bytes(bytes, n);
+    crc = crc32_z(crc, reinterpret_cast<const unsigned char *>(bytes), n);
     for (std::size_t first = 0; first < n && error == 0;)
       {
         const ssize_t written = write(file, bytes + first, n - first);
@@ -138,9 +138,9 @@ private:
       }
   }
 
-  int                file, error;
-  std::vector<char>  piece;
-  boost::crc_32_type crc;
+  int               file, error;
+  std::uint32_t     crc = 0;
+  std::vector<char> piece;
 };
 
 std::string
@@ -164,9 +164,7 @@ read_contents(const std::string &file_name, const unsigned int dimension)
                  + std::to_string(sizeof header + header.size + sizeof crc) + " bytes"};
   const std::size_t n = bytes.size() - sizeof crc;
   std::memcpy(&crc, bytes.data() + n, sizeof crc);
-  boost::crc_32_type found;
-  found.process_bytes(bytes.data(), n);
-  if (crc != found.checksum())
+  if (crc != crc32_z(0, reinterpret_cast<const unsigned char *>(bytes.data()), n))
     throw Damage{"is damaged: its checksum is wrong"};
   if (header.format != format)
     throw Damage{"is of format " + std::to_string(header.format)
@@ -208,8 +206,7 @@ write_checkpoint_file(const std::string &directory, const unsigned int dimension
     FileBuffer   buffer(next);
     std::ostream file(&buffer);
     file.write(reinterpret_cast<const char *>(&header), sizeof header);
-    if (file.good())
-      write_contents(file);
+    write_contents(file);
     const std::uint32_t crc = buffer.checksum();
     file.write(reinterpret_cast<const char *>(&crc), sizeof crc);
     return buffer.finish();

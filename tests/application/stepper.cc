@@ -86,9 +86,10 @@ subsection Moving geometry
          + "end\n";
 }
 
-/** Six loose discs between rigid walls that close in. */
+/** Six loose discs between rigid walls that close in. @param more lines of section Moving geometry
+ */
 std::string
-packing()
+packing(const std::string &more = "")
 {
   const auto wall = [](const std::string &name, const std::string &point, const std::string &normal,
                        const std::string &motion) {
@@ -130,8 +131,8 @@ subsection Bodies
 )" + wall("left", "0, 0", "1, 0", "x = 0.1*t")
          + wall("right", "12, 0", "-1, 0", "x = -0.1*t")
          + wall("bottom", "0, 0", "0, 1", "y = 0.1*t") + wall("top", "0, 12", "0, -1", "y = -0.1*t")
-         + "end\n" + contact_and_time
-         + "subsection Moving geometry\nset Update = every step\nend\n";
+         + "end\n" + contact_and_time + "subsection Moving geometry\nset Update = every step\n"
+         + more + "end\n";
 }
 
 /** Model and stepper of an input, without results. */
@@ -303,6 +304,30 @@ TEST(Relaxation, BringsLooseBodiesNearTheEndOfTheStep)
   EXPECT_GT(a.stored(), 0.);
   EXPECT_NEAR(b.stored(), a.stored(), 2e-2 * a.stored());
   EXPECT_NEAR(b.balance_error(), 0., 1e-2 * a.external_work);
+}
+
+TEST(Relaxation, TakesAStepInWhichABodyGoesAsFarAsBefore)
+{
+  using Outcome = Attempt<2>::Outcome;
+  ModelRun direct(packing());
+  direct.stepper.begin();
+  const auto before  = direct.model.state().points.position;
+  const auto attempt = direct.stepper.attempt();
+  ASSERT_TRUE(attempt.is_accepted());
+  double motion = 0.;
+  for (unsigned int i = 0; i < before.size(); ++i)
+    motion = std::max(motion, attempt.points.position[i].distance(before[i]));
+
+  const double h = direct.model.problem().grid.finest_size();
+  ModelRun     slips(packing("set Largest motion = " + std::to_string(0.95 * motion / h) + "\n"));
+  slips.stepper.begin();
+  EXPECT_EQ(slips.stepper.attempt().outcome, Outcome::too_large);
+  EXPECT_FALSE(slips.stepper.finds_another_way(Outcome::too_large)); // a shorter step might do
+  EXPECT_EQ(slips.stepper.attempt().outcome, Outcome::too_large);
+  ASSERT_TRUE(slips.stepper.finds_another_way(Outcome::too_large)); // it did not
+  EXPECT_TRUE(slips.stepper.attempt().is_accepted());
+  EXPECT_NEAR(slips.model.state().energies.stored(), direct.model.state().energies.stored(),
+              2e-2 * direct.model.state().energies.stored());
 }
 
 TEST(Stepper, AnotherOneTakesTheStepsOfARun)

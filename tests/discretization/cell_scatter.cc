@@ -63,6 +63,8 @@ check(const DisplacementSpace<dim> &space)
   matrix.compress(VectorOperation::add);
   expected.compress(VectorOperation::add);
   EXPECT_GT(expected.frobenius_norm(), 1.);
+  EXPECT_TRUE(scatter.fits(matrix));
+  EXPECT_FALSE(scatter.fits(expected));
   expected.add(-1., matrix);
   EXPECT_LE(expected.linfty_norm(), 1e-14);
 }

@@ -166,5 +166,48 @@ TEST(Bands, LoadStepsFollowTheBody)
   EXPECT_LT(slope, 0.2 * h);
   EXPECT_GT(n_marched, 0u);
 }
+
+// The image of the initial level set: the same numbers in the band as everywhere, and nearly so
+// beyond, for a displacement that turns and stretches.
+template <int dim>
+void
+check_image(const double h)
+{
+  const auto        ball       = [](const Point<dim> &x) { return x.norm() - 0.4; };
+  const auto        initial    = sampled<dim>(h, 1, ball);
+  auto              everywhere = initial, in_band = initial;
+  const auto        du = vectors(initial, [](const Point<dim> &x) {
+    return 1.05 * (turned<dim>(x, 0.03) + 0.01 * Point<dim>::unit_vector(1)) - x;
+  });
+  const auto        u  = vectors(initial, [](const Point<dim> &x) {
+    return Tensor<1, dim>(0.02 * x[1] * Point<dim>::unit_vector(0));
+  });
+  NodalVectors<dim> whole, part;
+  const double      half_width = 8. * h;
+  EXPECT_EQ(image_of_initial<dim>(everywhere, initial, du, u, whole).n_unconverged, 0u);
+  const auto count = image_of_initial<dim>(in_band, initial, du, u, part, half_width);
+  EXPECT_EQ(count.n_unconverged, 0u);
+  EXPECT_LT(count.n_nodes, initial.values().size());
+  double difference = 0.;
+  for (std::size_t i = 0; i < initial.values().size(); ++i)
+    {
+      if (std::abs(initial.values()[i]) <= half_width)
+        {
+          EXPECT_EQ(in_band.values()[i], everywhere.values()[i]);
+          for (unsigned int d = 0; d < dim; ++d)
+            EXPECT_EQ(part[d][i], whole[d][i]);
+        }
+      difference = std::max(difference, std::abs(in_band.values()[i] - everywhere.values()[i]));
+      EXPECT_EQ(in_band.values()[i] < 0., everywhere.values()[i] < 0.);
+    }
+  std::cout << "largest difference beyond " << difference / h << " h\n";
+  EXPECT_LT(difference, 0.5 * h);
+}
+
+TEST(Bands, ImageOfTheInitialLevelSetIsTheSameInABand)
+{
+  check_image<2>(0.02);
+  check_image<3>(0.04);
+}
 } // namespace
 } // namespace scree

@@ -80,9 +80,11 @@ private:
   StepRecord             record;                    //!< that is being solved
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt
-  bool                   has_slid = false; //!< bodies may have: contact was closed with friction
-  bool                   free_goes_far = false; //!< a free body, in an attempt that was too large
-  bool                   has_more_mass = false; //!< K, in a lagged step
+  bool                   has_slid    = false; //!< bodies may have: contact was closed with friction
+  bool                   has_slipped = false; //!< a free body, in an attempt that was too large
+  double                 free_motion
+    = std::numeric_limits<double>::infinity(); //!< largest in the last of these [L]
+  bool   has_more_mass = false;                //!< K, in a lagged step
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]
   StatusChanges status_changes;
 };

@@ -12,8 +12,8 @@ class ImplicitStepper;
 
 /**
  * Brings free bodies near the end of a step of a moving geometry that Newton's method did not
- * solve, or with a motion too far for the geometry: contact opens or slides somewhere, and bodies
- * go far until others hold them, or anywhere where nothing does. What is
+ * solve, or with motions too far for the geometry that did not become smaller with the step:
+ * contact opens or slides somewhere, and bodies go far until others hold them. What is
  * prescribed goes there at once, free bodies follow against a drag,
  *
  *     r(u) - m M (u - u_0) = 0,    u_0 the last state, M the artificial mass,

@@ -5,6 +5,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <Epetra_CrsGraph.h>
 #include <cstddef>
 #include <vector>
 
@@ -22,8 +23,11 @@ public:
 
   CellScatter(const DisplacementSpace<dim> &space, const Matrix &matrix);
 
-  /** `matrix += block` for an owned cell; hanging nodes as by AffineConstraints. The matrix has the
-   * pattern of that of the constructor and has to be compressed (add) afterwards. */
+  /** Whether the matrix has the graph (the same object) for which the places were found. */
+  bool fits(const Matrix &matrix) const;
+
+  /** `matrix += block` for an owned cell; hanging nodes as by AffineConstraints. It fits the
+   * matrix, which has to be compressed (add) afterwards. */
   void add(const unsigned int active_cell, const dealii::FullMatrix<double> &block,
            Matrix &matrix) const;
 
@@ -36,7 +40,8 @@ private:
   static constexpr std::size_t general = static_cast<std::size_t>(-1);
 
   const DisplacementSpace<dim> &space;
-  std::vector<std::size_t>      first;     //!< of a cell in `positions`, or `general`
+  const Epetra_CrsGraph         graph; //!< lives as long as its places: no other has its address
+  std::vector<std::size_t>      first; //!< of a cell in `positions`, or `general`
   std::vector<int>              positions; //!< node by node: its row, then its columns in it
 };
 } // namespace scree

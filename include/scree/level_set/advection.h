@@ -81,10 +81,13 @@ AdvectionCount advect_increment(Lattice<dim> &lattice, const NodalVectors<dim> &
  * old values enters, so that no errors of increments add up (reference map technique: Kamrin,
  * Rycroft, Nave, J. Mech. Phys. Solids 60, 2012).
  *
- * @param moved_by if given, becomes x - X at the nodes
+ * @param moved_by   becomes x - X at the nodes
+ * @param half_width of the old |phi| where this is so [L]; beyond, where distances need not be
+ *                   sharp, y = x - du(x), u is that of x, and phi_0 is interpolated linearly
  */
 template <int dim>
 AdvectionCount image_of_initial(Lattice<dim> &lattice, const Lattice<dim> &initial,
                                 const NodalVectors<dim> &du, const NodalVectors<dim> &displacement,
-                                NodalVectors<dim> *moved_by = nullptr);
+                                NodalVectors<dim> &moved_by,
+                                double half_width = std::numeric_limits<double>::infinity());
 } // namespace scree

@@ -89,7 +89,7 @@ private:
   const PointEvaluator<dim>  &u_n;
   const IncrementVolumes<dim> projection;
   mutable Answers             last; //!< to the last increment
-  /** Of the tangents, from the first of them on. */
+  /** Of the last tangent. */
   mutable std::optional<CellScatter<dim>> scatter;
 };
 } // namespace scree

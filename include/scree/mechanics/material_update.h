@@ -3,7 +3,6 @@
 #include <scree/mechanics/incremental_bulk.h>
 #include <scree/mechanics/step_start.h>
 
-#include <functional>
 #include <vector>
 
 namespace scree
@@ -29,14 +28,13 @@ void distribute_points(const DisplacementSpace<dim>   &space,
  * The material points after an increment u, with the laws' answers to F_D = I + grad u, projected
  * as those of `bulk`: x <- x + u, F <- F_D F, stresses and internal variables.
  *
- * @param points   those at the start of the step
- * @param places   where they are in their cells
- * @param history  of a point at the start, as its law sees it
+ * @param points    those at the start of the step
+ * @param places    where they are in their cells
+ * @param histories of the points at the start, as their laws see them
  */
 template <int dim>
-MaterialPoints<dim> moved_points(const MaterialPoints<dim>                           &points,
-                                 const std::vector<PointInCell<dim>>                 &places,
-                                 const std::function<PointHistory<dim>(std::size_t)> &history,
-                                 const std::vector<Body<dim>>                        &bodies,
-                                 const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u);
+MaterialPoints<dim>
+moved_points(const MaterialPoints<dim> &points, const std::vector<PointInCell<dim>> &places,
+             const std::vector<PointHistory<dim>> &histories, const std::vector<Body<dim>> &bodies,
+             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u);
 } // namespace scree
