@@ -43,7 +43,8 @@ void require_movable(const std::vector<Body<dim>> &bodies);
  * Moves the level sets, lattices and boxes of the deformable bodies by the increment
  * `x = X + du(X)` (theory.md, moving level sets): du at the lattice nodes in the body's cells,
  * linear extension, advection, removal of islands, reinitialisation, a lattice that follows the
- * body. Everything is done on all nodes of the lattices, on every process.
+ * body. Everything is done on every process; reference maps are exact where |phi| is at most twice
+ * the margin, or 32 spacings.
  *
  * Beyond a face of the background box, which clips a body, du is the linear continuation through
  * the face, `du(f - d) = 2 du(f) - du(f + d)`: where the normal component vanishes on a face, the
