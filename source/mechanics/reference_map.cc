@@ -1,5 +1,6 @@
 #include <scree/base/log.h>
 #include <scree/discretization/face_jumps.h>
+#include <scree/discretization/own_nodes.h>
 #include <scree/mechanics/reference_map.h>
 
 #include <deal.II/base/mpi.h>
@@ -134,20 +135,14 @@ private:
     for (Vector &values : result)
       values.reinit(nodes.owned, communicator);
     const DisplacementSpace<dim> &space = nodes.space;
-    for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
-      {
-        const auto &moved_by = bodies[space.cells()[a].body].displacement;
-        if (moved_by.is_empty())
-          continue;
-        const auto of_cell = nodes.of_cell(a);
-        for (unsigned int i = 0; i < of_cell.size(); ++i)
-          if (nodes.owned.is_element(of_cell[i]) && !nodes.constraints.is_constrained(of_cell[i]))
-            {
-              const auto u = moved_by(space.position(a, space.basis.node(i)));
-              for (unsigned int d = 0; d < dim; ++d)
-                result[d](of_cell[i]) = u[d];
-            }
-      }
+    for_each_own_node(space, [&](const unsigned int a, const unsigned int i, const DofIndex node) {
+      const auto &moved_by = bodies[space.cells()[a].body].displacement;
+      if (moved_by.is_empty())
+        return;
+      const auto u = moved_by(space.position(a, space.basis.node(i)));
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d](node / dim) = u[d];
+    });
     for (Vector &values : result)
       values.compress(dealii::VectorOperation::insert);
     return result;

@@ -147,7 +147,7 @@ std::string
 read_contents(const std::string &file_name, const unsigned int dimension)
 {
   std::ifstream file(file_name, std::ios::binary | std::ios::ate);
-  if (!file.good())
+  if (!file.good() || !std::filesystem::is_regular_file(file_name))
     throw Damage{"cannot be read"};
   std::string bytes(file.tellg(), '\0');
   file.seekg(0);

@@ -146,6 +146,12 @@ TEST_F(CheckpointFile, ErrorsSayWhatIsWrong)
   expect_error("is of format 99");
 }
 
+TEST_F(CheckpointFile, AFolderInItsPlaceCannotBeRead)
+{
+  fs::create_directory(directory + "/checkpoint");
+  expect_error("cannot be read");
+}
+
 TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
 {
   if (!fs::exists("/dev/full"))
