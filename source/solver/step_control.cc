@@ -192,13 +192,19 @@ StepControl::resume(const StepControlRecord &record)
 double
 StepControl::time_of(const std::int64_t tick) const
 {
-  if (!parameters.nominal_times.empty())
+  if (const std::vector<double> &times = parameters.nominal_times; !times.empty())
     {
       const std::int64_t step = tick / ticks_per_step, part = tick % ticks_per_step;
-      const double       begin = step == 0 ? 0. : parameters.nominal_times[step - 1];
+      // Beyond the last one, after which a step is asked for too, as long as that.
+      const auto end_of = [&times](const std::int64_t n) {
+        const std::int64_t n_times = times.size(), beyond = std::max<std::int64_t>(0, n - n_times);
+        const double       end = n == 0 ? 0. : times[n - beyond - 1];
+        return beyond == 0 ? end : end + beyond * (end - (times.size() > 1 ? times.end()[-2] : 0.));
+      };
+      const double begin = end_of(step);
       return part == 0 ? begin
                        : begin
-                           + (parameters.nominal_times[step] - begin) * static_cast<double>(part)
+                           + (end_of(step + 1) - begin) * static_cast<double>(part)
                                / static_cast<double>(ticks_per_step);
     }
   return tick == end_tick

@@ -41,6 +41,20 @@ TEST(StepControl, NominalStepsEndExactly)
   EXPECT_EQ(control.n_accepted(), 7u);
 }
 
+TEST(StepControl, AfterTheLastOfUnequalStepsTheNextIsAsLong)
+{
+  TimeParameters parameters = times(2., 2, 1. / 64);
+  parameters.nominal_times  = {0.5, 2.};
+  StepControl control(parameters);
+  for (const double size : {0.5, 1.5, 1.5})
+    {
+      EXPECT_EQ(control.step_size(), size);
+      if (!control.finished())
+        control.accept(easy);
+    }
+  EXPECT_TRUE(control.finished());
+}
+
 TEST(StepControl, HalvesAndGrowsBackAfterTwoEasySteps)
 {
   StepControl control(times(3, 3, 1. / 8));
