@@ -159,13 +159,13 @@ Model<dim>::make_problem(const double step_size)
 
 template <int dim>
 void
-Model<dim>::accept(const Vector &u, const double time, Rates rates)
+Model<dim>::accept(const Vector &u, const double time, const Rates &rates)
 {
   ContactPoints<dim> &contact = problem().contact();
   if (time > current.time)
     {
       current.predictor.step_size = time - current.time;
-      current.predictor.rates     = std::move(rates);
+      current.predictor.rates     = rates;
       if (!is_moving())
         {
           for (unsigned int i = 0; i < current.was_closed.size(); ++i)

@@ -226,9 +226,12 @@ RefinementStudy<dim>::choose_next_grid(const Simulation<dim> &simulation,
   const BackgroundGrid<dim> &grid       = model.problem().grid;
   const double               per_level  = 1u << dim;
   unsigned int               affordable = parameters.grid.finest_level;
-  for (double n = per_level * n_level_set_values(model.state().bodies); n <= most_level_set_values;
-       n *= per_level)
-    ++affordable;
+  double                     n_values   = per_level * n_level_set_values(model.state().bodies);
+  while (n_values <= most_level_set_values)
+    {
+      ++affordable;
+      n_values *= per_level;
+    }
   std::vector<unsigned int> levels;
   for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
     levels.push_back(grid.cells()[c].iterator->level());

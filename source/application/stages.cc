@@ -228,6 +228,7 @@ declare_stages(ParameterSection &section, const std::vector<BodyParameters<dim>>
 {
   std::vector<StageParameters<dim>> result;
   std::vector<std::string>          names;
+  names.reserve(bodies.size());
   for (const auto &body : bodies)
     names.push_back(body.name);
   for (auto &[name, stage_section] :

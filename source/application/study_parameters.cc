@@ -105,9 +105,10 @@ StudyParameters<dim>::declare(ParameterSection &section, const GridParameters<di
   if (strategy == StudyStrategy::uniform && n_cells * std::pow(2., dim * (n_cycles - 1.)) > 1e9)
     section.error("Cycles", "the last grid would have more than 1e9 cells",
                   "take fewer cycles or a coarser first grid");
-  const double finest = std::min<double>(grid.finest_level + n_cycles - 1., finest_level);
+  const double  finest   = std::min<double>(grid.finest_level + n_cycles - 1., finest_level);
+  constexpr int key_bits = 63 / dim; // per direction
   for (const unsigned int n : grid.cells)
-    if (std::log2(double(n)) + finest > 63 / dim - 1)
+    if (std::log2(double(n)) + finest > key_bits - 1.)
       section.error("Cycles", "too many cells for a 64 bit Morton key", "lower it or Finest level");
 }
 

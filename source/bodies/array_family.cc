@@ -1,6 +1,8 @@
 #include <scree/bodies/array_family.h>
 #include <scree/geometry/moved_shape.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
 
 namespace scree

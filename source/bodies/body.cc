@@ -62,6 +62,7 @@ set_material(const std::map<std::string, MaterialParameters> &materials,
              const ParameterSection &section, BodyParameters<dim> &body)
 {
   std::vector<std::string> known;
+  known.reserve(materials.size());
   for (const auto &candidate : materials)
     known.push_back(candidate.first);
   if (body.material.empty())

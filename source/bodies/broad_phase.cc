@@ -21,6 +21,7 @@ template <int dim>
 BodyBoxes<dim>::BodyBoxes(const std::vector<Body<dim>> &bodies)
     : BodyBoxes([&bodies] {
       std::vector<dealii::BoundingBox<dim>> boxes;
+      boxes.reserve(bodies.size());
       for (const Body<dim> &body : bodies)
         boxes.push_back(body.box);
       return boxes;

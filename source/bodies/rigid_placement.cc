@@ -2,6 +2,8 @@
 #include <scree/geometry/level_set_from_shape.h>
 #include <scree/level_set/reboxing.h>
 
+#include <deal.II/base/geometry_info.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>

@@ -86,6 +86,7 @@ ContactLaws<dim>::respond(const std::vector<ContactPoint<dim>>  &points,
   std::vector<ContactResponse<dim>> responses(numbers.size());
   std::vector<double>               pressures;
   std::vector<FrictionBound>        bounds(numbers.size());
+  pressures.reserve(trials.size());
   for (const TrialTraction<dim> &trial : trials)
     pressures.push_back(std::max(0., trial.pressure));
   for (unsigned int i = 0; i < numbers.size() && !frozen_bounds.empty(); ++i)

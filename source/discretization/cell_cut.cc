@@ -1,5 +1,7 @@
 #include <scree/discretization/cell_cut.h>
 
+#include <deal.II/base/geometry_info.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

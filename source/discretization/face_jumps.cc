@@ -67,8 +67,9 @@ FaceJumps<dim>::block(const GhostFace &face) const
 {
   const unsigned int        n     = space.basis.n_nodes;
   const auto                jumps = matrix(face);
-  Block                     result{{space.nodes(face.cell), space.nodes(face.cell) + n}, {}};
+  Block                     result;
   std::vector<unsigned int> position(2 * n);
+  result.nodes.assign(space.nodes(face.cell), space.nodes(face.cell) + n);
   for (unsigned int i = 0; i < 2 * n; ++i)
     {
       const DofIndex node  = i < n ? space.nodes(face.cell)[i] : space.nodes(face.neighbor)[i - n];

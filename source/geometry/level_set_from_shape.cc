@@ -188,17 +188,20 @@ inscribed_radius(const Shape<dim> &shape, const Lattice<dim> &lattice)
     {
       Point<dim> x     = lattice.node(deep[i]);
       double     depth = -shape.signed_distance(x);
-      for (double step = 0.5 * h; step > 1e-9 * h; step *= 0.5)
-        for (unsigned int side = 0; side < 2 * dim; ++side)
-          {
-            Point<dim> trial = x;
-            trial[side / 2] += side % 2 == 0 ? -step : step;
-            if (const double there = -shape.signed_distance(trial); there > depth)
-              {
-                depth = there;
-                x     = trial;
-              }
-          }
+      for (int halvings = 1; halvings < 30; ++halvings)
+        {
+          const double step = std::ldexp(h, -halvings);
+          for (unsigned int side = 0; side < 2 * dim; ++side)
+            {
+              Point<dim> trial = x;
+              trial[side / 2] += side % 2 == 0 ? -step : step;
+              if (const double there = -shape.signed_distance(trial); there > depth)
+                {
+                  depth = there;
+                  x     = trial;
+                }
+            }
+        }
       // The slope of a level set that is no distance, on the steeper side of ridges.
       double square = 0;
       for (unsigned int d = 0; d < dim && !shape.is_distance(); ++d)

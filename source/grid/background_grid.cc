@@ -100,8 +100,9 @@ check_number_of_cells(const GridParameters<dim> &p, ParameterSection &section)
     section.error(p.refinement == GridRefinement::uniform ? "Finest level" : "Coarsest level",
                   "the grid would start with " + number(n_cells) + " cells, more than 1e9",
                   "lower it or Cells, or set Refinement = contact");
+  constexpr int key_bits = 63 / dim; // per direction
   for (unsigned int d = 0; d < dim; ++d)
-    if (std::log2(double(p.cells[d])) + p.finest_level > 63 / dim - 1)
+    if (std::log2(double(p.cells[d])) + p.finest_level > key_bits - 1.)
       section.error("Finest level", "too many cells for a 64 bit Morton key", "lower it");
 }
 } // namespace

@@ -51,10 +51,8 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
     , communicator(space.grid.communicator())
     , number_of(bodies.size(), none)
 {
-  std::vector<Motions> motions;
-  for (const auto &body : bodies)
-    motions.emplace_back(body);
-  const auto held = resistance_of_supports(motions);
+  const std::vector<Motions> motions(bodies.begin(), bodies.end());
+  const auto                 held = resistance_of_supports(motions);
   for (unsigned int b = 0; b < bodies.size() && !has_mass; ++b)
     {
       const double      trace = held[b].trace();
@@ -82,6 +80,7 @@ std::vector<DenseMatrix>
 FreeBodies<dim>::resistance_of_supports(const std::vector<Motions> &motions) const
 {
   std::vector<DenseMatrix> held;
+  held.reserve(motions.size());
   for (const Motions &of_body : motions)
     held.push_back(of_body.no_resistance());
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)

@@ -124,9 +124,9 @@ IncrementalBulk<dim>::ask(const unsigned int active_cell, CellIncrement &cell) c
     projection.project(cell, last.volumes[active_cell]);
   dealii::Tensor<4, dim> *tangents = last.has_tangents ? last.tangents.data() + first : nullptr;
   bodies[body].law->respond(
-    dealii::make_array_view(cell.increments.begin(), cell.increments.end()),
+    dealii::make_array_view(cell.increments),
     dealii::ArrayView<const IncrementStart>(points.starts(active_cell), n),
-    dealii::make_array_view(cell.responses.begin(), cell.responses.end()),
+    dealii::make_array_view(cell.responses),
     dealii::ArrayView<dealii::Tensor<4, dim>>(tangents, last.has_tangents ? n : 0));
   if (is_projected)
     projection.pull_back(cell, tangents, last.of_volumes);

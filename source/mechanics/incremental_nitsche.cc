@@ -70,10 +70,10 @@ IncrementalNitsche<dim>::ask(const unsigned int index) const
         changes[q] = bulk.volume_projection().change(active_cell, unit_point, volumes[active_cell],
                                                      F_D, starts[index][q], increments[q]);
     }
-  bodies[region.body].law->respond(dealii::make_array_view(increments.begin(), increments.end()),
+  bodies[region.body].law->respond(dealii::make_array_view(increments),
                                    dealii::ArrayView<const IncrementStart>(starts[index].data(), n),
-                                   dealii::make_array_view(responses.begin(), responses.end()),
-                                   dealii::make_array_view(tangents.begin(), tangents.end()));
+                                   dealii::make_array_view(responses),
+                                   dealii::make_array_view(tangents));
   auto &of_points = last.of_points[index];
   of_points.resize(n);
   for (unsigned int q = 0; q < n; ++q)

@@ -13,6 +13,7 @@ seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level
             const MovingGeometryParameters &parameters)
 {
   std::vector<double> density;
+  density.reserve(bodies.size());
   for (const auto &body : bodies)
     density.push_back(body.is_rigid() ? 0. : body.material->density());
   const PointSeeding<dim> seeding(space, level_set_nodes, bodies, quadrature, density);

@@ -39,9 +39,7 @@ near_null_space(const DisplacementSpace<dim> &space, const std::vector<Body<dim>
   constexpr unsigned int n_motions = RigidMotions<dim>::n_motions;
 
   std::vector<Vector> result(n_motions, Vector(space.owned(), space.grid.communicator()));
-  std::vector<RigidMotions<dim>> motions;
-  for (const auto &body : bodies)
-    motions.emplace_back(body);
+  const std::vector<RigidMotions<dim>> motions(bodies.begin(), bodies.end());
   for (unsigned int a = 0; a < space.cells().size(); ++a)
     {
       const ActiveCell &cell = space.cells()[a];

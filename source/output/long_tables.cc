@@ -11,6 +11,7 @@ std::vector<std::string>
 word_row(const std::vector<double> &values)
 {
   std::vector<std::string> result;
+  result.reserve(values.size());
   for (const double value : values)
     result.push_back(CsvTable::word(value));
   return result;

@@ -69,6 +69,7 @@ write_points_vtu(const MaterialPoints<dim> &points, const std::vector<Body<dim>>
   const bool               has_plastic_strain = may_flow(bodies);
   const auto               columns            = point_columns<dim>(has_inertia, has_plastic_strain);
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const auto &[name, quantity] : columns)
     names.push_back(name);
   PointPatches<dim> output(names);

@@ -271,7 +271,9 @@ TEST(Stages, GoOnFromTheRecordOfEveryStep)
       resumed.resume(control.record());
       EXPECT_EQ(resumed.time(), control.time());
       if (!control.finished())
-        EXPECT_EQ(resumed.next_time(), control.next_time());
+        {
+          EXPECT_EQ(resumed.next_time(), control.next_time());
+        }
       control.accept(1);
     }
 }

@@ -94,7 +94,7 @@ TEST(ProjectedVolume, AffineFieldsAreExactOnCutCells)
   const Tensor<2, 2> A({{0.01, 0.02}, {-0.005, -0.0099}});
   const std::string  field = "set Value = 0.01*x + 0.02*y; -0.005*x - 0.0099*y";
   for (const unsigned int degree : {1u, 2u})
-    for (const std::string &point : {"0.01, 0.2", "0.0123, 0.2499"})
+    for (const std::string point : {"0.01, 0.2", "0.0123, 0.2499"})
       {
         const double error
           = stress_error<2>(grid_text("-1, -1", "1, 1", "4, 4", 1) + degree_text(degree)

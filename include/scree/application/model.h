@@ -66,7 +66,7 @@ public:
    *
    * @param rates there; none unless time goes on
    */
-  void accept(const Vector &u, const double time, Rates rates = {});
+  void accept(const Vector &u, const double time, const Rates &rates = {});
 
   /**
    * Moves the bodies by the accepted displacement: level sets, poses, material points; makes the
