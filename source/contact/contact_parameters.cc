@@ -1,3 +1,4 @@
+#include <scree/base/enum_names.h>
 #include <scree/base/log.h>
 #include <scree/contact/contact_parameters.h>
 
@@ -8,6 +9,9 @@ namespace scree
 {
 namespace
 {
+const EnumNames<AdjustBy> adjust_by_names
+  = {{AdjustBy::pairs, "pairs"}, {AdjustBy::points, "points"}};
+
 /** Whether `text` fits `pattern`, in which each '*' stands for any text. */
 bool
 fits(const std::string &pattern, const std::string &text)
@@ -136,6 +140,10 @@ ContactPairParameters::declare(ParameterSection &section)
   section.entry("Adjust", adjust, dealii::Patterns::Double(0.),
                 "Gaps and overlaps at the start up to this length count as zero, without strain; "
                 "larger ones stay as they are [L].");
+  section.entry("Adjust by", adjust_by, adjust_by_names,
+                "pairs: what counts is the least gap (the largest overlap) of two bodies, which is "
+                "taken off everywhere, so that they touch and keep their curvature; points: each "
+                "point has its own, so that surfaces fit that only roughly do.");
   path = section.path();
   if (bodies.size() != 2)
     section.error("Bodies", "needs two names", "for example Bodies = block, *");

@@ -244,6 +244,7 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
   const BackgroundGrid<dim> &grid       = space.grid;
   const unsigned int         rank = dealii::Utilities::MPI::this_mpi_process(grid.communicator());
   std::vector<std::array<double, 2>> factors;
+  factors.reserve(pairs.size());
   for (const ContactPair &pair : pairs)
     factors.push_back(factors_of_normals(pair, bodies, normal_of_nodes));
   std::vector<ContactPoint<dim>> points;
@@ -282,17 +283,18 @@ grid_node_contact(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                   const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                   const GridNodeParameters &parameters, const IncrementPrediction<dim> &prediction,
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
-                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios)
+                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios, StartGaps *start_gaps)
 {
   AssertDimension(space.basis.degree, 1);
-  const InitialGaps<dim> initial_gaps(bodies, pairs,
-                                      GridNodeParameters::reach(space.grid.finest_size()),
-                                      level_set_nodes.basis().degree);
-  auto                   result = discretise_contact(
-                      space, bodies, pairs,
-                      contact_nodes(space, level_set_nodes, bodies, pairs, parameters.normal,
-                  parameters.has_gaps ? prediction : IncrementPrediction<dim>()),
-                      initial_gaps, start_displacement, secant_ratios);
+  InitialGaps<dim> initial_gaps(bodies, pairs, GridNodeParameters::reach(space.grid.finest_size()),
+                                level_set_nodes.basis().degree);
+  auto             points = contact_nodes(space, level_set_nodes, bodies, pairs, parameters.normal,
+                              parameters.has_gaps ? prediction : IncrementPrediction<dim>());
+  StartGaps        of_this_start;
+  initial_gaps.adjust_pairs(points, space.grid.communicator(),
+                            start_gaps != nullptr ? *start_gaps : of_this_start);
+  auto result = discretise_contact(space, bodies, pairs, std::move(points), initial_gaps,
+                                   start_displacement, secant_ratios);
   if (!parameters.has_gaps)
     for (ContactPoint<dim> &point : result.points)
       point.initial_gap = 0.;
@@ -304,7 +306,7 @@ grid_node_contact(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
     const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
     const std::vector<ContactPair> &, const GridNodeParameters &,                               \
     const IncrementPrediction<dim> &, const dealii::TrilinosWrappers::MPI::Vector *,            \
-    const dealii::TrilinosWrappers::MPI::Vector *);
+    const dealii::TrilinosWrappers::MPI::Vector *, StartGaps *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -2,7 +2,11 @@
 #include <scree/base/log.h>
 #include <scree/contact/initial_gap.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -12,6 +16,7 @@ InitialGaps<dim>::InitialGaps(const std::vector<Body<dim>>   &bodies,
                               const unsigned int degree)
     : bodies(bodies)
     , pairs(pairs)
+    , of_pairs(pairs.size())
     , degree(degree)
 {
   for (const ContactPair &pair : pairs)
@@ -24,6 +29,29 @@ InitialGaps<dim>::InitialGaps(const std::vector<Body<dim>>   &bodies,
                 "make it smaller, or raise Contact/Shift");
       regions.emplace_back(pair.law.where, 1, pair.law.path + "/Where");
     }
+}
+
+template <int dim>
+void
+InitialGaps<dim>::adjust_pairs(const std::vector<ContactPoint<dim>> &points,
+                               const MPI_Comm communicator, StartGaps &start_gaps)
+{
+  if (!start_gaps.are_known)
+    {
+      std::vector<double> least(pairs.size(), std::numeric_limits<double>::max());
+      for (const ContactPoint<dim> &point : points)
+        if (!point.is_beyond)
+          least[point.pair] = std::min(least[point.pair], point.start_gap);
+      dealii::Utilities::MPI::min(least, communicator, least);
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        if (pairs[p].law.adjust_by == AdjustBy::pairs && std::abs(least[p]) <= pairs[p].law.adjust)
+          start_gaps.of_bodies[{pairs[p].a, pairs[p].b}] = least[p];
+      start_gaps.are_known = true;
+    }
+  for (unsigned int p = 0; p < pairs.size(); ++p)
+    if (const auto gap = start_gaps.of_bodies.find({pairs[p].a, pairs[p].b});
+        gap != start_gaps.of_bodies.end())
+      of_pairs[p] = gap->second;
 }
 
 template <int dim>
@@ -48,7 +76,8 @@ InitialGaps<dim>::apply(const std::array<dealii::Tensor<1, dim>, 2> &displacemen
                                            : bodies[body].level_set)
       .value(X, degree);
   };
-  double gap = 0., adjusted = 0.;
+  const bool by_points = law.adjust_by == AdjustBy::points;
+  double     gap = 0., adjusted = of_pairs[point.pair];
   for (const auto &u : displacement)
     {
       const dealii::Point<dim> X = point.position - u;
@@ -57,7 +86,7 @@ InitialGaps<dim>::apply(const std::array<dealii::Tensor<1, dim>, 2> &displacemen
                                 ? point.start_gap
                                 : initial_distance(pair.a, X) + initial_distance(pair.b, X);
       gap += 0.5 * at_start;
-      if (std::abs(at_start) <= law.adjust && !point.is_beyond)
+      if (by_points && std::abs(at_start) <= law.adjust && !point.is_beyond)
         adjusted += 0.5 * at_start;
     }
   point.initial_gap -= adjusted;

@@ -83,10 +83,10 @@ level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                   const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                   const double shift, const IncrementPrediction<dim> &prediction,
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
-                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios)
+                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios, StartGaps *start_gaps)
 {
   const ExactDistances<dim> distances(bodies, space.grid.finest_size());
-  const InitialGaps<dim>    initial_gaps(bodies, pairs, 2. * shift, level_set_nodes.basis().degree);
+  InitialGaps<dim>          initial_gaps(bodies, pairs, 2. * shift, level_set_nodes.basis().degree);
   const bool                moves = std::any_of(bodies.begin(), bodies.end(),
                                                 [](const Body<dim> &body) { return body.law != nullptr; });
   std::vector<ContactPoint<dim>> points
@@ -94,15 +94,19 @@ level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
   const Feet<dim> feet(space.grid, level_set_nodes, bodies, pairs, distances);
   for (ContactPoint<dim> &point : points)
     feet.find(prediction, point);
+  StartGaps of_this_start;
+  initial_gaps.adjust_pairs(points, space.grid.communicator(),
+                            start_gaps != nullptr ? *start_gaps : of_this_start);
   return discretise_contact(space, bodies, pairs, std::move(points), initial_gaps,
                             start_displacement, secant_ratios);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                  \
-  template ContactDiscretisation<dim> level_set_surface(                                        \
-    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
-    const std::vector<ContactPair> &, const double, const IncrementPrediction<dim> &,           \
-    const dealii::TrilinosWrappers::MPI::Vector *, const dealii::TrilinosWrappers::MPI::Vector *);
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template ContactDiscretisation<dim> level_set_surface(                                          \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,   \
+    const std::vector<ContactPair> &, const double, const IncrementPrediction<dim> &,             \
+    const dealii::TrilinosWrappers::MPI::Vector *, const dealii::TrilinosWrappers::MPI::Vector *, \
+    StartGaps *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -23,7 +23,7 @@ timed(Timings &timings, const std::string &part, const F &make)
 
 template <int dim>
 ContactPoints<dim>
-contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, const double step_size)
+contact_points(const DiscreteProblem<dim> &problem, State<dim> &state, const double step_size)
 {
   const Predictor<dim>    &predictor = state.predictor;
   IncrementPrediction<dim> prediction;
@@ -40,9 +40,9 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
     problem.bodies, problem.pairs,
     problem.parameters.grid_nodes.is_chosen
       ? grid_node_contact(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
-                          problem.parameters.grid_nodes, prediction, u_n, flow)
+                          problem.parameters.grid_nodes, prediction, u_n, flow, &state.start_gaps)
       : level_set_surface(problem.space, problem.level_set_nodes, problem.bodies, problem.pairs,
-                          problem.shift(), prediction, u_n, flow));
+                          problem.shift(), prediction, u_n, flow, &state.start_gaps));
   contact.set_enforcement(make_enforcement<dim>(problem.parameters.enforcement, contact.points(),
                                                 contact.enforcement().stiffness(),
                                                 problem.communicator()));
@@ -51,7 +51,7 @@ contact_points(const DiscreteProblem<dim> &problem, const State<dim> &state, con
 } // namespace
 
 template <int dim>
-DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, const State<dim> &state,
+DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, State<dim> &state,
                                            const double step_size)
     : contact(timed(problem.timings, "contact search",
                     [&]() { return contact_points(problem, state, step_size); }))
@@ -143,7 +143,7 @@ DiscreteProblem<dim>::start_of_step(State<dim> &state) const
 
 template <int dim>
 void
-DiscreteProblem<dim>::find_contact(const State<dim> &state, const double step_size)
+DiscreteProblem<dim>::find_contact(State<dim> &state, const double step_size)
 {
   equations.reset();
   equations = std::make_unique<Equations>(*this, state, step_size);

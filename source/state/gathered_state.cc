@@ -139,6 +139,7 @@ gather_moving(const State<dim> &state, const MPI_Comm communicator, const bool i
     state.points.pack(i, points);
   result.points                     = gather_arrays(points, communicator);
   result.step_end                   = state.step_end;
+  result.start_gaps                 = state.start_gaps;
   result.step_end.driving.of_points = gather_joined(state.step_end.driving.of_points, communicator);
   result.increments_of_bodies       = state.predictor.of_bodies;
   result.increments_of_rigid        = state.predictor.of_rigid;
@@ -273,7 +274,8 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
       for (std::size_t i = 0; i < saved.points[p].size(); i += n_values)
         state.points.unpack(&saved.points[p][i]);
   require_sound(state.points, state.bodies.size(), background, directory);
-  state.step_end = saved.step_end;
+  state.step_end   = saved.step_end;
+  state.start_gaps = saved.start_gaps;
   if (rank > 0)
     state.step_end.driving.of_points.clear();
   state.predictor.step_size      = saved.last_step_size;

@@ -246,6 +246,77 @@ TEST(AdjustedContact, StartsWithoutGap)
     }
 }
 
+// A disc that lies 0.02 deep in a half plane, or 0.02 above it.
+TEST(AdjustedContact, KeepsCurvatureOrMakesSurfacesFit)
+{
+  for (const double gap : {0.02, -0.02})
+    {
+      const CutBodies<2> model(
+        grid_text("-2, -2", "2, 2", "1, 1", 5) + degree_text(1)
+        + bodies_text(
+          {{"disc",
+            shape_text("disc", "set Radius = 1\nset Centre = 0.03, " + std::to_string(1. + gap))},
+           {"floor", shape_text("half space", "set Point = 0, 0\nset Normal = 0, 1")}}));
+      ContactPairParameters law;
+      law.kind        = &contact_law("frictionless");
+      const auto gaps = [](const ContactPoints<2> &contact) {
+        std::vector<double> result;
+        for (const auto &point : contact.points())
+          result.push_back(point.initial_gap);
+        return result;
+      };
+      const auto before = gaps(points_with(model, law));
+      const auto least  = *std::min_element(before.begin(), before.end());
+      EXPECT_NEAR(least, gap, 2e-3);
+      law.adjust           = 0.05;
+      const auto by_pairs  = gaps(points_with(model, law));
+      law.adjust_by        = AdjustBy::points;
+      const auto by_points = gaps(points_with(model, law));
+      law.adjust_by        = AdjustBy::pairs;
+      law.adjust           = 0.01;
+      EXPECT_EQ(gaps(points_with(model, law)), before);
+      ASSERT_EQ(by_pairs.size(), before.size());
+      unsigned int n_flat = 0;
+      for (unsigned int i = 0; i < before.size(); ++i)
+        {
+          EXPECT_NEAR(by_pairs[i], before[i] - least, 1e-14);
+          const bool is_near = std::abs(before[i]) <= 0.05;
+          EXPECT_NEAR(by_points[i], is_near ? 0. : before[i], 1e-14);
+          n_flat += is_near;
+        }
+      EXPECT_GT(n_flat, 4u);
+    }
+}
+
+// What was found at the start counts later, when bodies are elsewhere.
+TEST(AdjustedContact, RemembersTheStart)
+{
+  const CutBodies<2>    model(two_half_planes(0.3, 0.02, 1));
+  ContactPairParameters law;
+  law.kind   = &contact_law("frictionless");
+  law.adjust = 0.05;
+  std::vector<ContactPair> pairs;
+  for (const auto &[a, b] : model.pairs)
+    pairs.push_back({a, b, "pair", law});
+  const auto least_with = [&](StartGaps &start_gaps) {
+    const auto contact = level_set_surface(*model.space, *model.level_set_nodes, model.bodies,
+                                           pairs, CutBodies<2>::shift * model.grid.finest_size(),
+                                           {}, nullptr, nullptr, &start_gaps);
+    double     least   = 1.;
+    for (const auto &point : contact.points)
+      least = std::min(least, point.initial_gap);
+    return least;
+  };
+  StartGaps start_gaps;
+  EXPECT_NEAR(least_with(start_gaps), 0., 1e-14);
+  ASSERT_EQ(start_gaps.of_bodies.size(), 1u);
+  EXPECT_NEAR(start_gaps.of_bodies.begin()->second, 0.02, 1e-5);
+  start_gaps.of_bodies.begin()->second = 0.015;
+  EXPECT_NEAR(least_with(start_gaps), 0.005, 1e-5);
+  start_gaps.of_bodies.clear();
+  EXPECT_NEAR(least_with(start_gaps), 0.02, 1e-5);
+}
+
 TEST(ContactReach, BodiesThatCoincideOrLieInsideAreRefused)
 {
   const auto message = [](const std::string &first, const std::string &second) -> std::string {

@@ -10,6 +10,13 @@
 
 namespace scree
 {
+/** What Adjust takes off. */
+enum class AdjustBy
+{
+  pairs, //!< the least gap of a pair from all its points
+  points //!< from each point its own gap
+};
+
 /** A contact law for the pairs of bodies that match two names or wildcards. */
 struct ContactPairParameters
 {
@@ -22,7 +29,8 @@ struct ContactPairParameters
   /** E of the penalties [force/L^2]; NaN: from the materials */
   double penalty_modulus = std::numeric_limits<double>::quiet_NaN();
   /** Initial gaps and overlaps up to this are moved to zero without strain [L]. */
-  double adjust = 0.;
+  double   adjust    = 0.;
+  AdjustBy adjust_by = AdjustBy::pairs;
   /** Tied: points are glued up to this initial gap [L]; NaN: a tenth of their cell. */
   double      tied_gap = std::numeric_limits<double>::quiet_NaN();
   std::string where    = "1"; //!< tied: expression that selects the glued part

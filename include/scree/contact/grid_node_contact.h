@@ -29,6 +29,7 @@ namespace scree
  * @param prediction empty, or without the test of early contact: as at the start of the step
  * @param start_displacement see discretise_contact()
  * @param secant_ratios see discretise_contact()
+ * @param start_gaps see level_set_surface()
  * @throws UserError if normals need a density that is missing, or a law the gaps beyond reach
  */
 template <int dim>
@@ -38,5 +39,6 @@ grid_node_contact(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                   const GridNodeParameters                    &parameters,
                   const IncrementPrediction<dim>              &prediction         = {},
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement = nullptr,
-                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios      = nullptr);
+                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios      = nullptr,
+                  StartGaps                                   *start_gaps         = nullptr);
 } // namespace scree

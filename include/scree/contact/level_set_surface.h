@@ -25,6 +25,8 @@ namespace scree
  * @param prediction empty: no sliding is expected
  * @param start_displacement u_n of the deformable bodies at the owned unknowns; null: zero
  * @param secant_ratios of plastic flow at the first unknown of each owned node; null: one
+ * @param start_gaps of pairs that are adjusted as a whole: found here if they are not known yet;
+ * null: this is the start of the run
  * @throws UserError if the contact surface ends before the gaps that a law adjusts or glues
  */
 template <int dim>
@@ -33,5 +35,6 @@ level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                   const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
                   const double shift, const IncrementPrediction<dim> &prediction = {},
                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement = nullptr,
-                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios      = nullptr);
+                  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios      = nullptr,
+                  StartGaps                                   *start_gaps         = nullptr);
 } // namespace scree

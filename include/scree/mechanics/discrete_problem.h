@@ -45,7 +45,7 @@ public:
                   Timings &timings);
 
   /** Finds contact points, and makes their equations, for a step of another size (collective). */
-  void find_contact(const State<dim> &state, const double step_size);
+  void find_contact(State<dim> &state, const double step_size);
 
   ContactPoints<dim> &contact() const
   {
@@ -107,7 +107,7 @@ private:
   /** What depends on the contact points. */
   struct Equations
   {
-    Equations(DiscreteProblem &problem, const State<dim> &state, const double step_size);
+    Equations(DiscreteProblem &problem, State<dim> &state, const double step_size);
 
     ContactPoints<dim> contact;
     Equilibrium<dim>   equilibrium;

@@ -51,6 +51,7 @@ struct GatheredState
   std::vector<std::vector<double>>               points; //!< of each process: pack()
   std::vector<Geometry>                          bodies;
   StepEnd<dim>                                   step_end;
+  StartGaps                                      start_gaps;
   std::vector<ExtendedIncrement<dim>>            increments_of_bodies; //!< of Predictor
   std::vector<typename RigidPose<dim>::Unknowns> increments_of_rigid;
   std::vector<std::array<typename RigidPose<dim>::Unknowns, 3>> rates_of_rigid;
@@ -59,7 +60,7 @@ struct GatheredState
   void serialize(Archive &archive, const unsigned int)
   {
     archive &energies &last_step_size &has_inertia &is_reset &nodes &contact &trailing &points
-      &bodies &step_end &increments_of_bodies &increments_of_rigid &rates_of_rigid;
+      &bodies &step_end &start_gaps &increments_of_bodies &increments_of_rigid &rates_of_rigid;
   }
 };
 

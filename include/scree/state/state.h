@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/contact/contact_memory.h>
+#include <scree/contact/initial_gap.h>
 #include <scree/points/material_points.h>
 #include <scree/state/driving_forces.h>
 #include <scree/state/energies.h>
@@ -38,6 +39,7 @@ struct State
   dealii::TrilinosWrappers::MPI::Vector displacement; //!< owned unknowns [L]
   ContactHistory<dim>                   contact;
   std::vector<bool>   was_closed; //!< contact points of a fixed geometry, at the end of some step
+  StartGaps           start_gaps; //!< found with the first contact points
   Energies            energies;   //!< of the last accepted step
   Predictor<dim>      predictor;
   MaterialPoints<dim> points;   //!< of a moving geometry
