@@ -186,9 +186,10 @@ def draw_pair_3d(panel, table, units):
     mean = normals.mean(axis=0)
     kept = [axis for axis in range(3) if axis != int(np.argmax(np.abs(mean)))]
     points = np.stack([table["xyz"[axis]] for axis in kept], axis=1)
-    closed = points[table["status"] > 0] if (table["status"] > 0).any() else points
-    low, high = closed.min(axis=0), closed.max(axis=0)
-    margin = 0.15 * (high - low).max() + 1e-9
+    is_closed = table["status"] > 0 if (table["status"] > 0).any() else np.full(len(points), True)
+    low, high = points[is_closed].min(axis=0), points[is_closed].max(axis=0)
+    # Contact at a point or two is seen with the points around it.
+    margin = max(0.15 * (high - low).max(), 2.0 * np.sqrt(table["weight"][is_closed].max()))
     seen = normals @ mean > 0.2 * np.linalg.norm(mean)
     shown = ((points > low - margin) & (points < high + margin)).all(axis=1) & seen
     points, pressure = points[shown], table["pressure"][shown]

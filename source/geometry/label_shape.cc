@@ -15,101 +15,143 @@ namespace scree
 {
 using namespace dealii;
 
-Point<2>
-LabelPlacement::centre(const LabelImage::Pixel &pixel) const
+template <int dim>
+Point<dim>
+LabelPlacement<dim>::centre(const typename LabelImage<dim>::Pixel &pixel) const
 {
-  return lower_corner + pixel_size * Point<2>(pixel[0] + 0.5, pixel[1] + 0.5);
+  Point<dim> result = lower_corner;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[d] += pixel_size * (pixel[d] + 0.5);
+  return result;
+}
+
+template <int dim>
+double
+LabelPlacement<dim>::volume(const LabelPiece<dim> &piece) const
+{
+  return piece.n_pixels * std::pow(pixel_size, dim);
 }
 
 namespace
 {
 /** -1 at the pixels of a piece and 1 around them, nodes at their centres. */
-Lattice<2>
-signs_of(const LabelImage &image, const LabelPiece &piece, const LabelPlacement &placement)
+template <int dim>
+Lattice<dim>
+signs_of(const LabelImage<dim> &image, const LabelPiece<dim> &piece,
+         const LabelPlacement<dim> &placement)
 {
   const std::vector<bool> belongs = pixels_of(image, piece);
-  const int               width   = piece.upper[0] - piece.lower[0] + 1,
-            height                = piece.upper[1] - piece.lower[1] + 1;
+  std::array<int, dim>    n_piece, lower, n_nodes;
+  for (unsigned int d = 0; d < dim; ++d)
+    n_piece[d] = piece.upper[d] - piece.lower[d] + 1;
   // Beyond it distances are less exact; contact asks for them some cells away.
-  const int  margin = 8 + std::max(width, height) / 8;
-  Lattice<2> lattice({placement.centre({{0, 0}}), placement.pixel_size, unbounded_box<2>()},
-                     {{piece.lower[0] - margin, piece.lower[1] - margin}},
-                     {{width + 2 * margin, height + 2 * margin}});
+  const int margin = 8 + *std::max_element(n_piece.begin(), n_piece.end()) / 8;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d]   = piece.lower[d] - margin;
+      n_nodes[d] = n_piece[d] + 2 * margin;
+    }
+  Lattice<dim> lattice({placement.centre({}), placement.pixel_size, unbounded_box<dim>()}, lower,
+                       n_nodes);
   std::fill(lattice.values().begin(), lattice.values().end(), 1.);
-  for (int j = 0, k = 0; j < height; ++j)
-    for (int i = 0; i < width; ++i, ++k)
-      if (belongs[k])
-        lattice({{piece.lower[0] + i, piece.lower[1] + j}}) = -1.;
+  for (std::size_t k = 0; k < belongs.size(); ++k)
+    if (belongs[k])
+      {
+        std::size_t          rest = k;
+        std::array<int, dim> node = piece.lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            node[d] += rest % n_piece[d];
+            rest /= n_piece[d];
+          }
+        lattice(node) = -1.;
+      }
   return lattice;
 }
 
-/** The areas below three levels of the cubic interpolant, of parts of a quarter of the spacing. */
+/**
+ * The volumes below three levels of the cubic interpolant, of parts of a quarter of the spacing
+ * (half of it in three dimensions).
+ */
+template <int dim>
 std::array<double, 3>
-areas_below(const Lattice<2> &lattice, const std::array<double, 3> &levels)
+volumes_below(const Lattice<dim> &lattice, const std::array<double, 3> &levels)
 {
-  constexpr int         n_parts = 4;
-  const double          spacing = lattice.spacing(), near = 1.5 * spacing;
-  std::array<double, 3> areas{};
-  for (int j = 0; j + 1 < lattice.n_nodes()[1]; ++j)
-    for (int i = 0; i + 1 < lattice.n_nodes()[0]; ++i)
-      {
-        const typename Lattice<2>::Index corner{{lattice.lower()[0] + i, lattice.lower()[1] + j}};
-        std::optional<Lattice<2>>        parts;
-        for (unsigned int l = 0; l < levels.size(); ++l)
-          {
-            const double value = lattice(corner) - levels[l];
-            if (value < -near)
-              areas[l] += spacing * spacing;
-            if (std::abs(value) > near)
-              continue;
-            if (!parts)
-              {
-                parts.emplace(
-                  LatticeFrame<2>{lattice.node(corner), spacing / n_parts, lattice.frame().box},
-                  Lattice<2>::Index{{0, 0}}, Lattice<2>::Index{{n_parts + 1, n_parts + 1}});
-                for (std::size_t k = 0; k < parts->values().size(); ++k)
-                  parts->values()[k] = lattice.value(parts->node(parts->index(k)), 3);
-              }
-            areas[l] += volume_below(*parts, levels[l]);
-          }
-      }
-  return areas;
+  using Index           = typename Lattice<dim>::Index;
+  constexpr int n_parts = dim == 2 ? 4 : 2;
+  const double  spacing = lattice.spacing(), near = (dim == 2 ? 1.5 : 1.8) * spacing,
+               of_cell = std::pow(spacing, dim);
+  std::array<double, 3> volumes{};
+  Index                 n_of_parts;
+  n_of_parts.fill(n_parts + 1);
+  for (std::size_t k = 0; k < lattice.values().size(); ++k)
+    {
+      const Index corner = lattice.index(k);
+      bool        is_end = false;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_end = is_end || corner[d] + 1 == lattice.lower()[d] + lattice.n_nodes()[d];
+      if (is_end)
+        continue;
+      std::optional<Lattice<dim>> parts;
+      for (unsigned int l = 0; l < levels.size(); ++l)
+        {
+          const double value = lattice.values()[k] - levels[l];
+          if (value < -near)
+            volumes[l] += of_cell;
+          if (std::abs(value) > near)
+            continue;
+          if (!parts)
+            {
+              parts.emplace(
+                LatticeFrame<dim>{lattice.node(corner), spacing / n_parts, lattice.frame().box},
+                Index{}, n_of_parts);
+              for (std::size_t i = 0; i < parts->values().size(); ++i)
+                parts->values()[i] = lattice.value(parts->node(parts->index(i)), 3);
+            }
+          volumes[l] += volume_below(*parts, levels[l]);
+        }
+    }
+  return volumes;
 }
 
-/** Shifts distances so that the area of their cubic interpolant is `area`. */
+/** Shifts distances so that the volume of their cubic interpolant is `volume`. */
+template <int dim>
 void
-keep_area(Lattice<2> &lattice, const double area)
+keep_volume(Lattice<dim> &lattice, const double volume)
 {
   const double step = 0.1 * lattice.spacing();
   for (unsigned int iteration = 0; iteration < 2; ++iteration)
     {
-      const auto   areas  = areas_below(lattice, {{-step, 0., step}});
-      const double excess = areas[1] - area, perimeter = (areas[2] - areas[0]) / (2 * step);
+      const auto   volumes = volumes_below<dim>(lattice, {{-step, 0., step}});
+      const double excess = volumes[1] - volume, surface = (volumes[2] - volumes[0]) / (2 * step);
       for (double &value : lattice.values())
-        value += excess / perimeter;
+        value += excess / surface;
     }
 }
 
 /** Throws UserError unless the label is still there, in one piece. */
+template <int dim>
 void
-require_one_piece(const Lattice<2> &lattice, const LabelPiece &piece,
-                  const LabelPlacement &placement, const std::string &where)
+require_one_piece(const Lattice<dim> &lattice, const LabelPiece<dim> &piece,
+                  const LabelPlacement<dim> &placement, const std::string &where)
 {
   const std::string begin = "shrunk by half of Gap = " + short_number(placement.gap) + ", label "
                             + std::to_string(piece.label) + ", at "
                             + short_place(placement.centre(piece.first)) + ", ",
-                    remedy = "choose a smaller Gap, or leave the label out (Labels, Smallest area)";
+                    remedy = "choose a smaller Gap, or leave the label out (Labels, Smallest "
+                             + std::string(dim == 2 ? "area)" : "volume)");
   require(has_contour(lattice), where, begin + "is nothing", remedy);
   require(negative_pieces(lattice).n == 1, where, begin + "falls into pieces", remedy);
 }
 } // namespace
 
-ShapePointer<2>
-shape_of_label(const LabelImage &image, const LabelPiece &piece, const LabelPlacement &placement,
-               const std::string &where)
+template <int dim>
+ShapePointer<dim>
+shape_of_label(const LabelImage<dim> &image, const LabelPiece<dim> &piece,
+               const LabelPlacement<dim> &placement, const std::string &where)
 {
-  const Lattice<2> signs   = signs_of(image, piece, placement);
-  Lattice<2>       lattice = signs;
+  const Lattice<dim> signs   = signs_of(image, piece, placement);
+  Lattice<dim>       lattice = signs;
   for (unsigned int n_passes = placement.smoothing + 1; n_passes-- > 0;)
     {
       lattice = signs;
@@ -117,13 +159,21 @@ shape_of_label(const LabelImage &image, const LabelPiece &piece, const LabelPlac
       if (negative_pieces(lattice).n == 1)
         break;
     }
-  keep_area(lattice, piece.n_pixels * placement.pixel_size * placement.pixel_size);
+  keep_volume(lattice, placement.volume(piece));
   if (placement.gap > 0.)
     {
       for (double &value : lattice.values())
         value += 0.5 * placement.gap;
       require_one_piece(lattice, piece, placement, where);
     }
-  return std::make_unique<LatticeShape<2>>(std::move(lattice));
+  return std::make_unique<LatticeShape<dim>>(std::move(lattice));
 }
+
+#define SCREE_INSTANTIATE(dim)                                                                \
+  template struct LabelPlacement<dim>;                                                        \
+  template ShapePointer<dim> shape_of_label(const LabelImage<dim> &, const LabelPiece<dim> &, \
+                                            const LabelPlacement<dim> &, const std::string &);
+
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
 } // namespace scree

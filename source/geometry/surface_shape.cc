@@ -148,7 +148,7 @@ surface_family()
 {
   ShapeFamily<dim> family{{"surface"},
                           dim == 2 ? "surface (3D, or a plane section of it in 2D)" : "surface",
-                          {{"File", "File of a closed surface of triangles, STL or OBJ", "",
+                          {{"File", "File of a closed surface of triangles: STL, OBJ or PLY", "",
                             std::string(), false, true, true},
                            checksum_entry(),
                            scale_of_file()},

@@ -1,13 +1,8 @@
-#include <scree/base/exceptions.h>
-#include <scree/geometry/triangle_soup.h>
+#include <scree/geometry/growing_soup.h>
 
-#include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
-#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <map>
 
 namespace scree
 {
@@ -15,30 +10,6 @@ using namespace dealii;
 
 namespace
 {
-const std::string surface_remedy = "write the surface anew, as STL or OBJ";
-
-/** A soup that grows by corners, of which equal ones become one. */
-class GrowingSoup
-{
-public:
-  /** The number of a point of finite coordinates. @param where tells its place in the file */
-  template <typename Where>
-  std::size_t corner(const std::array<double, 3> &x, const Where &where)
-  {
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-      throw UserError(where(), "a coordinate is no finite number", surface_remedy);
-    const auto [known, is_new] = numbers.emplace(x, soup.points.size());
-    if (is_new)
-      soup.points.emplace_back(x[0], x[1], x[2]);
-    return known->second;
-  }
-
-  TriangleSoup soup;
-
-private:
-  std::map<std::array<double, 3>, std::size_t> numbers;
-};
-
 TriangleSoup
 read_binary_stl(const std::string &bytes, const std::string &name, const std::size_t n)
 {
@@ -57,66 +28,6 @@ read_binary_stl(const std::string &bytes, const std::string &name, const std::si
     }
   return growing.soup;
 }
-
-/** The words of a text, line by line. */
-class Words
-{
-public:
-  Words(const std::string &text, const std::string &name)
-      : text(text)
-      , name(name)
-  {
-  }
-
-  /** The next word; empty at the end. */
-  std::string next()
-  {
-    while (place < text.size() && is_space(text[place]))
-      line += text[place++] == '\n';
-    const std::size_t first = place;
-    while (place < text.size() && !is_space(text[place]))
-      ++place;
-    return text.substr(first, place - first);
-  }
-
-  void skip_line()
-  {
-    place = std::min(text.find('\n', place), text.size());
-  }
-
-  /** Whether another word stands on this line. */
-  bool line_goes_on()
-  {
-    while (place < text.size() && text[place] != '\n' && is_space(text[place]))
-      ++place;
-    return place < text.size() && text[place] != '\n';
-  }
-
-  double number()
-  {
-    const std::string word   = next();
-    char             *end    = nullptr;
-    const double      result = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0')
-      throw UserError(where(), "'" + word.substr(0, 40) + "' is no number", surface_remedy);
-    return result;
-  }
-
-  std::string where() const
-  {
-    return name + ":" + std::to_string(line);
-  }
-
-private:
-  static bool is_space(const char c)
-  {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
-  }
-
-  const std::string &text;
-  const std::string  name;
-  std::size_t        place = 0, line = 1;
-};
 
 TriangleSoup
 read_text_stl(const std::string &bytes, const std::string &name)
@@ -139,14 +50,14 @@ read_text_stl(const std::string &bytes, const std::string &name)
         if (corners.size() != 3)
           throw UserError(words.where(),
                           "a facet has " + std::to_string(corners.size()) + " vertices, not 3",
-                          surface_remedy);
+                          surface_remedy());
         growing.soup.triangles.push_back({{corners[0], corners[1], corners[2]}});
         corners.clear();
       }
     else if (word != "outer" && word != "loop" && word != "endloop")
       throw UserError(words.where(), "'" + word.substr(0, 40) + "' is no word of an STL file",
-                      surface_remedy);
-  require(corners.empty(), words.where(), "the file ends within a facet", surface_remedy);
+                      surface_remedy());
+  require(corners.empty(), words.where(), "the file ends within a facet", surface_remedy());
   return growing.soup;
 }
 
@@ -162,7 +73,7 @@ vertex_of(const std::string &word, const std::size_t n_vertices, const Words &wo
     throw UserError(words.where(),
                     "'" + word.substr(0, 40) + "' names none of the " + std::to_string(n_vertices)
                       + " vertices before it",
-                    surface_remedy);
+                    surface_remedy());
   return vertex;
 }
 
@@ -187,15 +98,13 @@ read_obj(const std::string &bytes, const std::string &name)
           while (words.line_goes_on())
             face.push_back(vertices[vertex_of(words.next(), vertices.size(), words)]);
           if (face.size() < 3)
-            throw UserError(words.where(), "a face has fewer than 3 corners", surface_remedy);
-          for (std::size_t i = 2; i < face.size(); ++i)
-            growing.soup.triangles.push_back({{face[0], face[i - 1], face[i]}});
+            throw UserError(words.where(), "a face has fewer than 3 corners", surface_remedy());
+          growing.add_face(face);
         }
       words.skip_line();
     }
   return growing.soup;
 }
-
 } // namespace
 
 TriangleSoup
@@ -208,6 +117,8 @@ TriangleSoup::read(const std::string &bytes, const std::string &name)
   TriangleSoup soup;
   if (boost::algorithm::ends_with(name, ".obj") || boost::algorithm::ends_with(name, ".OBJ"))
     soup = read_obj(bytes, name);
+  else if (bytes.compare(0, 3, "ply") == 0)
+    soup = read_ply(bytes, name);
   else if (bytes.size() >= n_header && bytes.size() == n_header + n_record * n_told)
     soup = read_binary_stl(bytes, name, n_told);
   else
@@ -215,10 +126,10 @@ TriangleSoup::read(const std::string &bytes, const std::string &name)
       require(bytes.compare(0, 5, "solid") == 0, name,
               "this is no STL file: it neither begins with 'solid' nor has the size of "
                 + std::to_string(n_told) + " binary facets",
-              surface_remedy);
+              surface_remedy());
       soup = read_text_stl(bytes, name);
     }
-  require(!soup.triangles.empty(), name, "the file has no facet", surface_remedy);
+  require(!soup.triangles.empty(), name, "the file has no facet", surface_remedy());
   return soup;
 }
 } // namespace scree

@@ -2,7 +2,9 @@
 #include <scree/level_set/fast_marching.h>
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace scree
 {
@@ -45,23 +47,19 @@ negative_part(const std::array<double, (1 << dim)> &f)
   return result;
 }
 
-// The smallest level below which the volume is `volume`, by bisection between the extreme values.
+// The level below which the volume is `volume`, between the extreme values.
 template <int dim>
 double
 level_of_volume(const Lattice<dim> &lattice, const double volume)
 {
   const auto [lowest, highest]
     = std::minmax_element(lattice.values().begin(), lattice.values().end());
-  double lower = *lowest, upper = *highest;
-  for (unsigned int i = 0; i < 48; ++i)
-    {
-      const double middle = 0.5 * (lower + upper);
-      if (volume_below(lattice, middle) < volume)
-        lower = middle;
-      else
-        upper = middle;
-    }
-  return upper;
+  const auto     excess = [&](const double level) { return volume_below(lattice, level) - volume; };
+  std::uintmax_t n_trials = 60;
+  const auto     bounds   = boost::math::tools::toms748_solve(
+          excess, *lowest, *highest, excess(*lowest), excess(*highest),
+          boost::math::tools::eps_tolerance<double>(46), n_trials);
+  return 0.5 * (bounds.first + bounds.second);
 }
 
 // The volume of the voxels around negative nodes, clipped at the ends of the lattice.

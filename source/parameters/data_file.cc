@@ -55,7 +55,8 @@ declare_checksum(const ParameterSection &section, const std::string &path, const
 std::string
 read_data_file(const ParameterSection &section, const std::string &key, std::string &path,
                const std::size_t largest_size, const std::string &what,
-               const std::string &documentation)
+               const std::string &documentation,
+               const std::function<std::string(const std::string &, const std::string &)> &complete)
 {
   section.file(key, path, documentation);
   std::string bytes;
@@ -67,6 +68,8 @@ read_data_file(const ParameterSection &section, const std::string &key, std::str
         bytes = read_bytes(path, largest_size, path, "check the path", what);
         if (bytes.empty())
           section.error(key, "the file '" + path + "' is empty", "choose the right file");
+        if (complete)
+          bytes = complete(bytes, path);
       }
     catch (const UserError &error)
       {

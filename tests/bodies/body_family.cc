@@ -6,35 +6,16 @@
 #include <scree/level_set/binary_field.h>
 #include <scree/parameters/file.h>
 
-#include <cstdio>
-#include <fstream>
 #include <random>
 
 #include "../messages.h"
+#include "../temporary_file.h"
 
 namespace scree
 {
 namespace
 {
 using namespace dealii;
-
-/** A file of this test, which ends with it. */
-class TemporaryFile
-{
-public:
-  TemporaryFile(const std::string &name, const std::string &content)
-      : name(::testing::TempDir() + name)
-  {
-    std::ofstream(this->name, std::ios::binary) << content;
-  }
-  TemporaryFile(const TemporaryFile &) = delete;
-  ~TemporaryFile()
-  {
-    std::remove(name.c_str());
-  }
-
-  const std::string name;
-};
 
 /** Stones 3 and 12 of 8 x 8 pixels, beside one another, and a speck of one pixel. */
 std::string
@@ -125,6 +106,62 @@ TEST(ImageFamily, MakesABodyOfEachLabel)
   EXPECT_NEAR(bodies[1].level_set.value({0.5, -0.21}, 1), -0.4, 0.05);
 }
 
+TEST(ImageFamily, TakesPartsAndMergesOrLeavesOut)
+{
+  const TemporaryFile      file("two_stones.pgm", two_stones());
+  std::vector<std::string> warnings;
+  const std::string        size = "set Pixel size = 0.1\n";
+  EXPECT_EQ(
+    names(parameters<2>(image(file.name, size
+                                           + "set First pixel = 0, 2\nset Last pixel = 15, 13\n"
+                                             "set Cut labels = drop\n"))),
+    (std::vector<std::string>{"stone-0003"}));
+  EXPECT_EQ(names(parameters<2>(image(file.name, size + "set Last pixel = 23, 14\n"))),
+            (std::vector<std::string>{"stone-0003", "stone-0012"}));
+  // A speck of label 2 in stone 1.
+  const TemporaryFile speck("speck.pgm", "P2 5 3 9\n1 1 1 1 0\n1 1 2 1 0\n1 1 1 1 0\n");
+  EXPECT_EQ(names(parameters<2>(image(speck.name, size
+                                                    + "set Smallest area = 0.02\n"
+                                                      "set Small pieces = merge\n"),
+                                &warnings)),
+            (std::vector<std::string>{"stone-0001"}));
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_contains(warnings[0], "label 2 at (0.25, 0.15) (into 1); they join their neighbours");
+}
+
+TEST(ImageFamily, MakesABodyOfEachLabelOfAVolume)
+{
+  // Cubes of 4 voxels' edge of labels 1 and 2; the header is beside its data.
+  std::string data;
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 16; ++i)
+        {
+          const bool is_in = j >= 2 && j < 6 && k >= 2 && k < 6;
+          data += static_cast<char>(is_in && i >= 3 && i < 7    ? 1
+                                    : is_in && i >= 9 && i < 13 ? 2
+                                                                : 0);
+        }
+  const TemporaryFile raw("cubes.raw", data),
+    header("cubes.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 16 8 8\nElementSpacing = .5 .5 .5"
+                        "\nElementType = MET_UCHAR\nElementDataFile = cubes.raw\n");
+  const auto found = parameters<3>(image(header.name, ""));
+  EXPECT_EQ(names(found), (std::vector<std::string>{"stone-0001", "stone-0002"}));
+  MaterialParameters material;
+  material.young                                = 1.;
+  material.poisson                              = 0.;
+  const std::shared_ptr<const Material<3>> soft = make_material<3>(material);
+  const Point<3>                           lower(0., 0., 0.), upper(8., 4., 4.);
+  const auto                               bodies
+    = make_bodies<3>(found, {{"soft", soft}}, {lower, 0.2, BoundingBox<3>({lower, upper})}, 0.5);
+  for (const auto &body : bodies)
+    EXPECT_NEAR(volume_below(body.level_set, 0.), 8., 0.08) << body.name;
+  expect_contains(message<2>(image(header.name, "")), "set Dimension = 3");
+  const TemporaryFile other("cubes.raw", data.substr(1) + "\1");
+  expect_contains(message<3>(image(header.name, "set Checksum = 12345678\n")),
+                  "has changed, its checksum is ");
+}
+
 TEST(ImageFamily, WrongImagesAreExplained)
 {
   const TemporaryFile file("two_stones.pgm", two_stones());
@@ -142,8 +179,15 @@ TEST(ImageFamily, WrongImagesAreExplained)
   expect_contains(message<2>(image(file.name, size + "set Checksum = 12345678\n")),
                   "has changed, its checksum is ");
   expect_contains(message<3>(image(file.name, size)), "set Dimension = 2");
+  expect_contains(message<2>(image(file.name, size + "set Last pixel = 24, 3\n")),
+                  "Last pixel: 24 is not in the image");
+  expect_contains(message<2>(image(file.name, size + "set First pixel = 1\n")),
+                  "First pixel: 1 number(s)");
+  expect_contains(
+    message<2>(image(file.name, size + "set First pixel = 5, 5\nset Last pixel = 4, 9\n")),
+    "lies before First pixel");
   const TemporaryFile text("stones.txt", "stones");
-  expect_contains(message<2>(image(text.name, size)), "no PNG and no PGM");
+  expect_contains(message<2>(image(text.name, size)), "this is no PNG, PGM or TIFF image");
   const TemporaryFile pieces("pieces.pgm", "P2 5 1 9\n1 1 0 1 0\n");
   expect_contains(message<2>(image(pieces.name, size)),
                   "label 1 at (0.35, 0.05) is a piece of 1 pixels (area 0.01) that does not touch "

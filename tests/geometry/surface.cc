@@ -112,6 +112,41 @@ obj(const TriangleSoup &soup)
   return out.str();
 }
 
+/** `kind`: ascii, binary_little_endian, or binary_big_endian. */
+std::string
+ply(const TriangleSoup &soup, const std::string &kind)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << "ply\nformat " << kind << " 1.0\ncomment a sphere\nelement vertex " << soup.points.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n"
+      << "element face " << soup.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  const bool is_text = kind == "ascii", swaps = kind == "binary_big_endian";
+  const auto write = [&](const auto number) {
+    std::string bytes(reinterpret_cast<const char *>(&number), sizeof number);
+    if (swaps)
+      std::reverse(bytes.begin(), bytes.end());
+    if (is_text)
+      out << +number << ' ';
+    else
+      out << bytes;
+  };
+  for (const Point<3> &x : soup.points)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        write(x[d]);
+      write(std::uint8_t(200));
+    }
+  for (const Triangle &triangle : soup.triangles)
+    {
+      write(std::uint8_t(3));
+      for (const std::size_t corner : triangle)
+        write(static_cast<std::int32_t>(corner));
+    }
+  return out.str();
+}
+
 std::string
 message(const TriangleSoup &soup)
 {
@@ -127,10 +162,13 @@ message(const std::string &bytes, const std::string &name)
 TEST(TriangleSoup, ReadsEachKind)
 {
   const TriangleSoup original = sphere(2);
-  for (const auto &[bytes, name] :
-       std::vector<std::pair<std::string, std::string>>{{text_stl(original), "a.stl"},
-                                                        {binary_stl(original), "a.stl"},
-                                                        {obj(original), "a.obj"}})
+  for (const auto &[bytes, name] : std::vector<std::pair<std::string, std::string>>{
+         {text_stl(original), "a.stl"},
+         {binary_stl(original), "a.stl"},
+         {obj(original), "a.obj"},
+         {ply(original, "ascii"), "a.ply"},
+         {ply(original, "binary_little_endian"), "a.ply"},
+         {ply(original, "binary_big_endian"), "a.ply"}})
     {
       const TriangleSoup soup = TriangleSoup::read(bytes, name);
       EXPECT_EQ(soup.points.size(), original.points.size());
@@ -160,6 +198,19 @@ TEST(TriangleSoup, RefusesWhatIsNoSurface)
   expect_contains(message("v 0 0 0\nf 1 2 3\n", "a.obj"),
                   "a.obj:2: '2' names none of the 1 vertices");
   expect_contains(message("v 0 0 0\nf 1 1\n", "a.obj"), "fewer than 3 corners");
+  const std::string vertices = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                               "property float y\nproperty float z\n",
+                    faces    = "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+  expect_contains(message(vertices, "a.ply"), "the header of the PLY file does not end");
+  expect_contains(message(vertices + faces + "0 0 0 1 0 0\n3 0 1 2\n", "a.ply"),
+                  "a.ply:11: a face names none of the 2 vertices");
+  expect_contains(message(vertices + faces + "0 0 0 1 0 0\n2 0 1\n", "a.ply"),
+                  "fewer than 3 corners");
+  expect_contains(message("ply\nformat ascii 1.0\nelement vertex 99\n", "a.ply"),
+                  "cannot hold so many elements 'vertex'");
+  expect_contains(message("ply\nformat middle_endian 1.0\n", "a.ply"), "is no format");
+  expect_contains(message("ply\nelement vertex 1\nproperty real x\n", "a.ply"),
+                  "'real' is no type");
 }
 
 TEST(TriangleSoup, SurvivesDamage)
@@ -167,10 +218,12 @@ TEST(TriangleSoup, SurvivesDamage)
   std::mt19937_64 random(3);
   unsigned int    n_read = 0, n_refused = 0, n_closed = 0;
   const auto      soup = sphere(1);
-  for (const auto &[original, name] :
-       std::vector<std::pair<std::string, std::string>>{{text_stl(soup), "a.stl"},
-                                                        {binary_stl(soup), "a.stl"},
-                                                        {obj(soup), "a.obj"}})
+  for (const auto &[original, name] : std::vector<std::pair<std::string, std::string>>{
+         {text_stl(soup), "a.stl"},
+         {binary_stl(soup), "a.stl"},
+         {obj(soup), "a.obj"},
+         {ply(soup, "ascii"), "a.ply"},
+         {ply(soup, "binary_little_endian"), "a.ply"}})
     for (unsigned int i = 0; i < 3000; ++i)
       {
         std::string bytes = original;

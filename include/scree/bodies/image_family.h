@@ -4,7 +4,7 @@
 
 namespace scree
 {
-/** The labels of an image, each a body: LabelImage, shape_of_label(). In two dimensions. */
+/** The labels of an image, each a body: LabelImage, shape_of_label(). */
 template <int dim>
 FamilyKind<dim> image_family();
 } // namespace scree

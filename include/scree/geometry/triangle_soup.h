@@ -18,8 +18,8 @@ struct TriangleSoup
   std::vector<Triangle>         triangles;
 
   /**
-   * Reads STL (text or binary) or OBJ (vertices and faces; those of more than three corners are
-   * divided into fans).
+   * Reads STL and PLY (text or binary) or OBJ. Faces of more than three corners are divided into
+   * fans.
    *
    * @param bytes of the file
    * @param name  of the file, for messages; its end tells an OBJ file

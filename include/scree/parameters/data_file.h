@@ -4,6 +4,7 @@
 #include <scree/parameters/section.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace scree
@@ -38,8 +39,11 @@ bool declare_checksum(const ParameterSection &section, const std::string &path,
  * nothing if the name or the checksum is wrong, which is recorded. `path` becomes the name.
  *
  * @param largest_size the most bytes that are read
+ * @param complete     makes what counts of the bytes and the path: a header may name another file
  */
-std::string read_data_file(const ParameterSection &section, const std::string &key,
-                           std::string &path, const std::size_t largest_size,
-                           const std::string &what, const std::string &documentation);
+std::string read_data_file(
+  const ParameterSection &section, const std::string &key, std::string &path,
+  const std::size_t largest_size, const std::string &what, const std::string &documentation,
+  const std::function<std::string(const std::string &bytes, const std::string &path)> &complete
+  = {});
 } // namespace scree
