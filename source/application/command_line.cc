@@ -4,6 +4,7 @@
 #include <scree/application/simulation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
+#include <scree/base/log.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <thread>
 
 #ifndef SCREE_REVISION
@@ -36,6 +38,8 @@ const char *const usage =
       Title, Time, Solver and Output (but its probes)
   scree --check FILE.prm [--set ...] [--output DIR]
       says what is wrong with the input and writes what was set up, computes nothing
+  scree --list FAMILY FILE.prm [--set ...]
+      prints the bodies of a random packing as a table, which Family = list reads
   scree --parameters [FILE.md]
       writes a description of all parameters
   scree --version
@@ -50,6 +54,7 @@ struct Arguments
   std::string              file;
   std::string              output;
   std::string              resumed; // directory
+  std::string              listed;  // family
   std::vector<std::string> overrides;
   bool                     check = false, parameters = false, version = false, help = false;
 };
@@ -73,6 +78,8 @@ parse(const int argc, char **argv)
         result.check = true;
       else if (word == "--parameters")
         result.parameters = true;
+      else if (word == "--list")
+        result.listed = value_of_option(i);
       else if (word == "--set")
         result.overrides.push_back(value_of_option(i));
       else if (word == "--resume")
@@ -167,6 +174,35 @@ write_parameters(const ParameterFile &file, const std::string &directory)
           "check the output directory and the disk");
 }
 
+/** A family as the table that Family = list reads. */
+template <int dim>
+std::string
+list_of(const std::vector<BodyParameters<dim>> &bodies, const std::string &family)
+{
+  std::set<std::string> families;
+  std::string           names, rows;
+  for (const BodyParameters<dim> &body : bodies)
+    {
+      if (!body.family.empty())
+        families.insert(body.family);
+      if (body.family != family)
+        continue;
+      require(!body.list_row.empty(), "--list " + family, "no table can tell its shapes",
+              "the bodies of Family = packing can be listed");
+      names.clear();
+      for (const auto &[name, cell] : body.list_row)
+        {
+          rows += (names.empty() ? "" : ", ") + cell;
+          names += (names.empty() ? "" : ", ") + name;
+        }
+      rows += '\n';
+    }
+  require(!rows.empty(), "--list " + family, "there is no such family",
+          families.empty() ? "set Family = packing in the section of a body"
+                           : "one of: " + listed({families.begin(), families.end()}));
+  return names + '\n' + rows;
+}
+
 template <int dim>
 void
 run(ParameterFile &file, const Arguments &arguments, const std::string &directory,
@@ -175,10 +211,17 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
   Parameters<dim> parameters;
   parameters.declare(file);
   file.check();
-  parameters.resolved          = file.values();
-  parameters.warnings          = file.warnings();
-  const bool          is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  const DirectoryLock lock     = prepare_directory(directory, is_first);
+  parameters.resolved = file.values();
+  parameters.warnings = file.warnings();
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  if (!arguments.listed.empty())
+    {
+      const std::string table = list_of(parameters.bodies, arguments.listed);
+      if (is_first)
+        std::cout << table;
+      return;
+    }
+  const DirectoryLock lock = prepare_directory(directory, is_first);
   MPI_Barrier(communicator);
   if (is_first)
     write_parameters(file, directory);

@@ -83,6 +83,8 @@ body_of(const BodyParameters<dim> &family, const FamilyMember<dim> &member)
   body.name += "-" + member.name;
   body.path += " (" + body.name + ")";
   body.shape_of_member = member.make_shape;
+  body.family          = family.name;
+  body.list_row        = member.row;
   if (!member.material.empty())
     body.material = member.material;
   return body;

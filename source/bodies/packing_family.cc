@@ -2,12 +2,39 @@
 #include <scree/geometry/ball.h>
 #include <scree/geometry/ball_packing.h>
 
+#include <limits>
+#include <sstream>
+
 namespace scree
 {
 using namespace dealii;
 
 namespace
 {
+/** A number with all its digits. */
+std::string
+exact_number(const double x)
+{
+  std::ostringstream out;
+  out.precision(std::numeric_limits<double>::max_digits10);
+  out << x;
+  return out.str();
+}
+
+template <int dim>
+FamilyMember<dim>
+member_of(const std::string &name, const Point<dim> &centre, const double radius)
+{
+  ListRow row = {{"Name", name}, {"Type", dim == 2 ? "disc" : "ball"}};
+  for (unsigned int d = 0; d < dim; ++d)
+    row.emplace_back(std::string("Centre ") + "xyz"[d], exact_number(centre[d]));
+  row.emplace_back("Radius", exact_number(radius));
+  return {
+    name,
+    [centre, radius]() -> ShapePointer<dim> { return std::make_unique<Ball<dim>>(centre, radius); },
+    "", row};
+}
+
 /** Section Packing of a family. */
 template <int dim>
 struct PackingEntries
@@ -53,9 +80,7 @@ declare_packing(const ParameterSection &section, const ShapeParameters<dim> & /*
   std::vector<FamilyMember<dim>> members;
   for (const auto &ball : pack_balls<dim>({p.n, {{p.lower, p.upper}}, p.size_ratio, p.seed}))
     members.push_back(
-      {member_name(members.size() + 1), [ball, growth = p.growth]() -> ShapePointer<dim> {
-         return std::make_unique<Ball<dim>>(ball.centre, growth * ball.radius);
-       }});
+      member_of<dim>(member_name(members.size() + 1), ball.centre, p.growth * ball.radius));
   return members;
 }
 } // namespace

@@ -5,12 +5,16 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scree
 {
 /** A family has at most as many bodies: files of a few megabytes can hold more than is meant. */
 constexpr std::size_t most_members = 100000;
+
+/** Columns and cells of a row of the table that Family = list reads. */
+using ListRow = std::vector<std::pair<std::string, std::string>>;
 
 /** A body of a family. */
 template <int dim>
@@ -19,6 +23,7 @@ struct FamilyMember
   std::string                        name;          //!< what follows "family-", as 0017
   std::function<ShapePointer<dim>()> make_shape;    //!< may throw UserError
   std::string                        material = {}; //!< empty: that of the section
+  ListRow                            row      = {}; //!< empty: no list can tell the shape
 };
 
 /**
