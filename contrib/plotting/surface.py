@@ -29,7 +29,7 @@ class View:
 
 
 class Raster:
-    """For every pixel the nearest triangle (-1: none) and the barycentric weights of its corners there."""
+    """For every pixel the nearest triangle (-1: none), of several the first, and the barycentric weights of its corners there."""
 
     def __init__(self, plane, nearness, triangles):
         self.low, high = plane.min(axis=0), plane.max(axis=0)
@@ -58,7 +58,8 @@ class Raster:
         weight_a = 1.0 - weight_b - weight_c
         depth = weight_a * nearness[0] + weight_b * nearness[1] + weight_c * nearness[2]
         window = np.s_[first[1]:last[1] + 1, first[0]:last[0] + 1]
-        front = ((weight_a >= -1e-9) & (weight_b >= -1e-9) & (weight_c >= -1e-9) & (depth > self.nearness[window]))
+        front = ((weight_a >= -1e-9) & (weight_b >= -1e-9) & (weight_c >= -1e-9)
+                 & (depth > self.nearness[window] + 1e-3 * self.pixel))
         self.nearness[window][front] = depth[front]
         self.triangle[window][front] = number
         self.weights[window][front] = np.stack([weight_a, weight_b, weight_c], axis=2)[front]
@@ -102,7 +103,12 @@ def surface_triangles(mesh):
     _, first, count = np.unique(number, axis=0, return_index=True, return_counts=True)
     faces = faces[first[count % 2 == 1]]
     quadrilateral = faces[:, 2] != faces[:, 3]
-    return np.concatenate([faces[:, :3], faces[quadrilateral][:, [0, 2, 3]]])
+    return by_body(mesh, np.concatenate([faces[:, :3], faces[quadrilateral][:, [0, 2, 3]]]))
+
+
+def by_body(mesh, corners):
+    """Triangles (n, 3, ...) of points in the order of their bodies: where bodies overlap the same one is always seen."""
+    return corners[np.argsort(mesh.body[corners.reshape(len(corners), -1)[:, 0]], kind="stable")]
 
 
 def section_triangles(mesh, axis, position):
@@ -117,8 +123,8 @@ def section_triangles(mesh, axis, position):
     n_below = (side[tetrahedra] < 0.0).sum(axis=1)
     edges = {1: [((0, 1), (0, 2), (0, 3))], 3: [((0, 3), (1, 3), (2, 3))],
              2: [((0, 2), (0, 3), (1, 3)), ((0, 2), (1, 3), (1, 2))]}
-    pairs = np.concatenate([tetrahedra[n_below == n][:, triangle].reshape(-1, 3, 2)
-                            for n, triangles in edges.items() for triangle in triangles])
+    pairs = by_body(mesh, np.concatenate([tetrahedra[n_below == n][:, triangle].reshape(-1, 3, 2)
+                                          for n, triangles in edges.items() for triangle in triangles]))
     share = side[pairs[:, :, 0]] / (side[pairs[:, :, 0]] - side[pairs[:, :, 1]])
     return pairs, share
 
