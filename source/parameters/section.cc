@@ -257,9 +257,11 @@ ParameterSection::found_file(const std::string &key, const std::string &path) co
   namespace fs                = std::filesystem;
   const ParameterEntry &entry = node->get_entry(key);
   std::error_code       none;
-  const fs::path        beside = fs::path(entry.position.file).parent_path() / path;
-  const bool            is_beside
-    = !fs::exists(path, none) && entry.position.file != "--set" && fs::exists(beside, none);
+  const fs::path        beside    = fs::path(entry.position.file).parent_path() / path;
+  const bool            is_beside = entry.position.file != "--set" && fs::exists(beside, none);
+  if (is_beside && fs::exists(path, none) && !fs::equivalent(path, beside, none))
+    warning(key, "there is another file '" + path
+                   + "' in the folder where the program runs; the one beside the input is taken");
   const std::string found = fs::absolute(is_beside ? beside : fs::path(path), none).string();
   if (!none && found.find_first_of("#\n") == std::string::npos && found.back() != '\\')
     return fs::path(found).lexically_normal().string();

@@ -64,8 +64,9 @@ public:
                      const std::string              &documentation) const;
 
   /**
-   * Declares `key` as the name of a file: as it is, or beside the parameter file where only there
-   * is one. It becomes absolute, so that a file that is written back finds it too.
+   * Declares `key` as the name of a file: beside the parameter file, or as it is where there is
+   * none or --set names it. It becomes absolute, so that a file that is written back finds it too.
+   * Of two different ones is warned.
    */
   void file(const std::string &key, std::string &path, const std::string &documentation) const;
 
