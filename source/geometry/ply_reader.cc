@@ -135,7 +135,8 @@ public:
     if (is_text)
       return words.number();
     const std::size_t size = size_of(type);
-    require(size <= bytes.size() - place, name, "the PLY file ends too early", surface_remedy());
+    if (size > bytes.size() - place)
+      throw UserError(name, "the PLY file ends too early", surface_remedy());
     const double number = number_at(bytes.data() + place, type, swaps);
     place += size;
     return number;
@@ -199,10 +200,11 @@ read_ply(const std::string &bytes, const std::string &name)
             if (property.name == "vertex_indices" || property.name == "vertex_index")
               for (const double value : values)
                 {
-                  require(value >= 0. && value < vertices.size(), numbers.where(),
-                          "a face names none of the " + std::to_string(vertices.size())
-                            + " vertices before it",
-                          surface_remedy());
+                  if (!(value >= 0. && value < vertices.size()))
+                    throw UserError(numbers.where(),
+                                    "a face names none of the " + std::to_string(vertices.size())
+                                      + " vertices before it",
+                                    surface_remedy());
                   face.push_back(vertices[static_cast<std::size_t>(value)]);
                 }
           }

@@ -131,8 +131,9 @@ labels_of_text(const std::string &bytes, std::size_t place, const std::size_t n,
     {
       char        *end    = nullptr;
       const double number = std::strtod(first, &end);
-      require(end != first, name, "the text ends after " + std::to_string(i) + " labels",
-              label_remedy());
+      if (end == first)
+        throw UserError(name, "the text ends after " + std::to_string(i) + " labels",
+                        label_remedy());
       append_labels(reinterpret_cast<const char *>(&number), 1, NumberType::float64, false, name,
                     labels);
       first = end;
