@@ -205,9 +205,9 @@ contact_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &l
   const auto                     of_pairs = cells_of_pairs(grid, bodies, pairs, shift);
   for (auto entry = of_pairs.begin(); entry != of_pairs.end();)
     {
-      const unsigned int  p = entry->first;
-      PairSurface<dim>    surface(level_set_nodes, bodies, pairs[p], distances, nodal_normals);
-      const LeastGap<dim> least_gap(distances, bodies, pairs[p]);
+      const unsigned int p = entry->first;
+      PairSurface<dim>   surface(level_set_nodes, bodies, pairs[p], distances, nodal_normals);
+      LeastGap<dim>      least_gap(distances, bodies, pairs[p]);
       for (; entry != of_pairs.end() && entry->first == p; ++entry)
         {
           const unsigned int   c         = entry->second;

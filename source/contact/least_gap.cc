@@ -63,7 +63,7 @@ template <int dim>
 std::pair<double, dealii::Tensor<1, dim>>
 LeastGap<dim>::distance(const unsigned int body, const dealii::Point<dim> &x) const
 {
-  if (distances.is_known(body, x))
+  if (is_known[body == pair.a ? 0 : 1])
     return distances.value_and_normal(body, x);
   return bodies[body].level_set.value_and_gradient(x, 3);
 }
@@ -85,8 +85,8 @@ LeastGap<dim>::gap(const dealii::Point<dim> &x) const
 {
   double result = 0.;
   for (const unsigned int body : {pair.a, pair.b})
-    result += distances.is_known(body, x) ? distances.value(body, x)
-                                          : bodies[body].level_set.value(x, 3);
+    result += is_known[body == pair.a ? 0 : 1] ? distances.value(body, x)
+                                               : bodies[body].level_set.value(x, 3);
   return result;
 }
 
@@ -173,7 +173,7 @@ LeastGap<dim>::point_at(const dealii::Point<dim> &x, const double weight, const 
 
 template <int dim>
 void
-LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points) const
+LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points)
 {
   if (points.empty())
     return;
@@ -182,6 +182,8 @@ LeastGap<dim>::add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim
                         [](const auto &p, const auto &q) { return p.initial_gap < q.initial_gap; });
   if (first.initial_gap < 0.)
     return; // points of the cell lie in the contact already
+  is_known
+    = {{distances.is_known(pair.a, first.position), distances.is_known(pair.b, first.position)}};
   auto least = minimum(first.position, cell.size);
   if (!least)
     return;

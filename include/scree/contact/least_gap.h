@@ -3,6 +3,7 @@
 #include <scree/contact/contact_surface.h>
 #include <scree/contact/exact_distance.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,12 +30,13 @@ public:
    * Adds the point to those of a cell that are all open, if the bodies are nearest within it, two
    * cells around, open half a cell from there, and curved by at least 0.02 of a cell's edge.
    */
-  void add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points) const;
+  void add_point(const GridCell<dim> &cell, std::vector<ContactPoint<dim>> &points);
 
 private:
   using Tensor = dealii::Tensor<1, dim>;
 
-  /** phi and grad phi of one body: exact where they are known, else of the cubic interpolant. */
+  /** phi and grad phi of one body: exact where they are known around the cell, else of the cubic
+   * interpolant. */
   std::pair<double, Tensor> distance(const unsigned int body, const dealii::Point<dim> &x) const;
 
   /** Where phi_a - phi_b = 0 along its gradient from x, to first order. */
@@ -66,5 +68,6 @@ private:
   const ExactDistances<dim>    &distances;
   const std::vector<Body<dim>> &bodies;
   const ContactPair            &pair;
+  std::array<bool, 2>           is_known = {}; //!< the distance to a, to b, around the cell at hand
 };
 } // namespace scree
