@@ -71,14 +71,14 @@ signs_of(const LabelImage<dim> &image, const LabelPiece<dim> &piece,
 
 /**
  * The volumes below three levels of the cubic interpolant, of parts of a quarter of the spacing
- * (half of it in three dimensions).
+ * (a third in three dimensions).
  */
 template <int dim>
 std::array<double, 3>
 volumes_below(const Lattice<dim> &lattice, const std::array<double, 3> &levels)
 {
   using Index           = typename Lattice<dim>::Index;
-  constexpr int n_parts = dim == 2 ? 4 : 2;
+  constexpr int n_parts = dim == 2 ? 4 : 3;
   const double  spacing = lattice.spacing(), near = (dim == 2 ? 1.5 : 1.8) * spacing,
                of_cell = std::pow(spacing, dim);
   std::array<double, 3> volumes{};
