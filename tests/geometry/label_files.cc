@@ -426,7 +426,7 @@ TEST(LabelFiles, SurviveDamage)
   std::mt19937_64 random(7);
   unsigned int    n_read = 0, n_refused = 0;
   for (const std::string &original : files_of_labels())
-    for (unsigned int i = 0; i < 2500; ++i)
+    for (unsigned int i = 0; i < 1000; ++i)
       {
         const std::string bytes = damaged(original, random);
         try
