@@ -19,6 +19,7 @@ std::vector<bool>
 positive(const std::vector<double> &shares)
 {
   std::vector<bool> result;
+  result.reserve(shares.size());
   for (const double share : shares)
     result.push_back(share > 0.);
   return result;

@@ -84,6 +84,7 @@ mean_displacements(const DisplacementSpace<dim> &space, const BoundaryTerms<dim>
     }
   sum.reduce(space.grid.communicator());
   std::vector<dealii::Tensor<1, dim>> result;
+  result.reserve(sums.size());
   for (const auto &of_condition : sums)
     result.push_back(of_condition.weight > 0. ? of_condition.displacement / of_condition.weight
                                               : dealii::Tensor<1, dim>());

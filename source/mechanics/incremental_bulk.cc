@@ -17,6 +17,7 @@ std::vector<double>
 shares_of_laws(const std::vector<Body<dim>> &bodies)
 {
   std::vector<double> result;
+  result.reserve(bodies.size());
   for (const auto &body : bodies)
     result.push_back(body.law ? body.law->projected_share() : 0.);
   return result;
@@ -52,7 +53,8 @@ IncrementalBulk<dim>::find_secant_ratios()
   std::vector<std::vector<double>> of_cells(space.cells().size(), {1.});
   for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
     {
-      const CellRule<dim> cell   = rule(a);
+      // Called by the constructor: its own, whatever is derived.
+      const CellRule<dim> cell   = IncrementalBulk<dim>::rule(a);
       double              volume = 0., alpha = 0.;
       for (unsigned int q = 0; q < cell.n_points; ++q)
         {
