@@ -2,15 +2,14 @@
 #include <scree/application/stop_relation.h>
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
+#include <scree/base/log.h>
 #include <scree/bodies/motion_keys.h>
 #include <scree/parameters/nearest_name.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 #include <regex>
-#include <sstream>
 
 namespace scree
 {
@@ -138,14 +137,6 @@ declare_friction(const ParameterSection &stage, const ContactParameters &contact
     }
 }
 
-std::string
-exact(const double value)
-{
-  std::ostringstream text;
-  text << std::setprecision(17) << value;
-  return text.str();
-}
-
 /** Adds to the formula of the run what a stage says, between its beginning and its end. */
 void
 add_stage(std::string &formula, const std::string &of_stage, const double begin,
@@ -154,8 +145,9 @@ add_stage(std::string &formula, const std::string &of_stage, const double begin,
   if (of_stage.empty())
     return;
   static const std::regex time_variable("\\bt\\b");
-  const std::string stage_time = "min(max(t - " + exact(begin) + ", 0), " + exact(duration) + ")";
-  formula                      = (formula.empty() ? "" : "(" + formula + ") + ") + "("
+  const std::string       stage_time
+    = "min(max(t - " + exact_number(begin) + ", 0), " + exact_number(duration) + ")";
+  formula = (formula.empty() ? "" : "(" + formula + ") + ") + "("
             + std::regex_replace(of_stage, time_variable, stage_time) + ")";
 }
 
@@ -211,9 +203,10 @@ set_component(const std::vector<StageParameters<dim>> &stages, const StageRecord
                 return;
               parameters.motion[m].clear();
               parameters.load[m].clear();
-              formula = exact((*start)[m]);
+              formula = exact_number((*start)[m]);
               if (target)
-                text = "(" + *target + " - (" + formula + "))*t/" + exact(stages[k].duration);
+                text
+                  = "(" + *target + " - (" + formula + "))*t/" + exact_number(stages[k].duration);
             }
           add_stage(formula, text, begin, duration);
         }

@@ -64,6 +64,15 @@ short_number(const double value)
 }
 
 std::string
+exact_number(const double value)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+std::string
 listed(const std::vector<std::string> &names)
 {
   std::string text;

@@ -120,9 +120,7 @@ template <int dim>
 LabelImage<dim>
 chosen_part(const ImageParameters<dim> &p, LabelImage<dim> image)
 {
-  std::array<int, dim> lower = {}, upper = image.n_pixels();
-  for (int &number : upper)
-    --number;
+  std::array<int, dim>       lower = {}, upper = image.last_pixel();
   const std::array<int, dim> last = upper;
   const auto choose = [&](const std::string &key, const std::vector<unsigned int> &entry,
                           std::array<int, dim> &pixel) {
@@ -174,7 +172,7 @@ bool
 is_cut(const LabelPiece<dim> &piece, const LabelImage<dim> &image)
 {
   for (unsigned int d = 0; d < dim; ++d)
-    if (piece.lower[d] == 0 || piece.upper[d] == image.n_pixels()[d] - 1)
+    if (piece.lower[d] == 0 || piece.upper[d] == image.last_pixel()[d])
       return true;
   return false;
 }

@@ -1,9 +1,7 @@
+#include <scree/base/log.h>
 #include <scree/bodies/packing_family.h>
 #include <scree/geometry/ball.h>
 #include <scree/geometry/ball_packing.h>
-
-#include <limits>
-#include <sstream>
 
 namespace scree
 {
@@ -11,16 +9,6 @@ using namespace dealii;
 
 namespace
 {
-/** A number with all its digits. */
-std::string
-exact_number(const double x)
-{
-  std::ostringstream out;
-  out.precision(std::numeric_limits<double>::max_digits10);
-  out << x;
-  return out.str();
-}
-
 template <int dim>
 FamilyMember<dim>
 member_of(const std::string &name, const Point<dim> &centre, const double radius)

@@ -155,10 +155,14 @@ template <int dim>
 ContactDiscretisation<dim>
 discretise_contact(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                    const std::vector<ContactPair> &pairs, std::vector<ContactPoint<dim>> &&points,
-                   const InitialGaps<dim>                      &initial_gaps,
+                   InitialGaps<dim>                            &initial_gaps,
                    const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
-                   const dealii::TrilinosWrappers::MPI::Vector *secant_ratios)
+                   const dealii::TrilinosWrappers::MPI::Vector *secant_ratios,
+                   StartGaps                                   *start_gaps)
 {
+  StartGaps of_this_start;
+  initial_gaps.adjust_pairs(points, space.grid.communicator(),
+                            start_gaps != nullptr ? *start_gaps : of_this_start);
   Stencils<dim> stencils(space, bodies, pairs, points, start_displacement, secant_ratios);
   ContactDiscretisation<dim> result{{}, JumpOperator<dim>(space, bodies, pairs)};
   for (ContactPoint<dim> &point : points)
@@ -182,11 +186,12 @@ discretise_contact(const DisplacementSpace<dim> &space, const std::vector<Body<d
   return result;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                     \
-  template ContactDiscretisation<dim> discretise_contact(                                          \
-    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &,                                \
-    const std::vector<ContactPair> &, std::vector<ContactPoint<dim>> &&, const InitialGaps<dim> &, \
-    const dealii::TrilinosWrappers::MPI::Vector *, const dealii::TrilinosWrappers::MPI::Vector *);
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template ContactDiscretisation<dim> discretise_contact(                                         \
+    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &,                               \
+    const std::vector<ContactPair> &, std::vector<ContactPoint<dim>> &&, InitialGaps<dim> &,      \
+    const dealii::TrilinosWrappers::MPI::Vector *, const dealii::TrilinosWrappers::MPI::Vector *, \
+    StartGaps *);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -290,11 +290,8 @@ grid_node_contact(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
                                 level_set_nodes.basis().degree);
   auto             points = contact_nodes(space, level_set_nodes, bodies, pairs, parameters.normal,
                               parameters.has_gaps ? prediction : IncrementPrediction<dim>());
-  StartGaps        of_this_start;
-  initial_gaps.adjust_pairs(points, space.grid.communicator(),
-                            start_gaps != nullptr ? *start_gaps : of_this_start);
   auto result = discretise_contact(space, bodies, pairs, std::move(points), initial_gaps,
-                                   start_displacement, secant_ratios);
+                                   start_displacement, secant_ratios, start_gaps);
   if (!parameters.has_gaps)
     for (ContactPoint<dim> &point : result.points)
       point.initial_gap = 0.;

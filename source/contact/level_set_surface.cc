@@ -94,11 +94,8 @@ level_set_surface(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> 
   const Feet<dim> feet(space.grid, level_set_nodes, bodies, pairs, distances);
   for (ContactPoint<dim> &point : points)
     feet.find(prediction, point);
-  StartGaps of_this_start;
-  initial_gaps.adjust_pairs(points, space.grid.communicator(),
-                            start_gaps != nullptr ? *start_gaps : of_this_start);
   return discretise_contact(space, bodies, pairs, std::move(points), initial_gaps,
-                            start_displacement, secant_ratios);
+                            start_displacement, secant_ratios, start_gaps);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                    \

@@ -62,17 +62,6 @@ for_each_row(const std::array<int, dim> &lower, const std::array<int, dim> &uppe
     }
 }
 
-/** The last pixel of an image. */
-template <int dim>
-std::array<int, dim>
-last_pixel(const LabelImage<dim> &image)
-{
-  std::array<int, dim> result = image.n_pixels();
-  for (int &number : result)
-    --number;
-  return result;
-}
-
 /** Sets of runs of pixels that are joined, by union-find. */
 class JoinedRuns
 {
@@ -122,7 +111,7 @@ RowsOfRuns<dim>
 runs_of(const LabelImage<dim> &image)
 {
   RowsOfRuns<dim> result;
-  for_each_row<dim>({}, last_pixel(image), [&](std::array<int, dim> pixel) {
+  for_each_row<dim>({}, image.last_pixel(), [&](std::array<int, dim> pixel) {
     result.first_of_row.push_back(result.runs.size());
     std::uint32_t before = 0;
     for (; pixel[0] < image.n_pixels()[0]; ++pixel[0])
@@ -279,18 +268,28 @@ pixels_of(const LabelImage<dim> &image, const LabelPiece<dim> &piece)
 }
 
 template <int dim>
-std::uint32_t
-merge_into_neighbour(const LabelPiece<dim> &piece, LabelImage<dim> &image)
+std::vector<typename LabelImage<dim>::Pixel>
+list_of_pixels(const LabelImage<dim> &image, const LabelPiece<dim> &piece)
 {
   using Pixel                     = typename LabelImage<dim>::Pixel;
   const std::vector<bool> belongs = pixels_of(image, piece);
   std::vector<Pixel>      pixels;
-  std::size_t             k = 0;
+  pixels.reserve(piece.n_pixels);
+  std::size_t k = 0;
   for_each_row<dim>(piece.lower, piece.upper, [&](Pixel pixel) {
     for (; pixel[0] <= piece.upper[0]; ++pixel[0], ++k)
       if (belongs[k])
         pixels.push_back(pixel);
   });
+  return pixels;
+}
+
+template <int dim>
+std::uint32_t
+merge_into_neighbour(const LabelPiece<dim> &piece, LabelImage<dim> &image)
+{
+  using Pixel                                 = typename LabelImage<dim>::Pixel;
+  const std::vector<Pixel>             pixels = list_of_pixels(image, piece);
   std::map<std::uint32_t, std::size_t> n_sides; // in common
   for (const Pixel &pixel : pixels)
     for_each_neighbour(image, pixel, [&](const Pixel &neighbour) {
@@ -312,6 +311,8 @@ merge_into_neighbour(const LabelPiece<dim> &piece, LabelImage<dim> &image)
   template class LabelImage<dim>;                                                                    \
   template std::vector<LabelPiece<dim>> pieces_of(const LabelImage<dim> &);                          \
   template std::vector<bool>            pixels_of(const LabelImage<dim> &, const LabelPiece<dim> &); \
+  template std::vector<typename LabelImage<dim>::Pixel> list_of_pixels(const LabelImage<dim> &,      \
+                                                                       const LabelPiece<dim> &);     \
   template std::uint32_t merge_into_neighbour(const LabelPiece<dim> &, LabelImage<dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -40,32 +40,22 @@ Lattice<dim>
 signs_of(const LabelImage<dim> &image, const LabelPiece<dim> &piece,
          const LabelPlacement<dim> &placement)
 {
-  const std::vector<bool> belongs = pixels_of(image, piece);
-  std::array<int, dim>    n_piece, lower, n_nodes;
+  int widest = 0;
   for (unsigned int d = 0; d < dim; ++d)
-    n_piece[d] = piece.upper[d] - piece.lower[d] + 1;
+    widest = std::max(widest, piece.upper[d] - piece.lower[d] + 1);
   // Beyond it distances are less exact; contact asks for them some cells away.
-  const int margin = 8 + *std::max_element(n_piece.begin(), n_piece.end()) / 8;
+  const int            margin = 8 + widest / 8;
+  std::array<int, dim> lower, n_nodes;
   for (unsigned int d = 0; d < dim; ++d)
     {
       lower[d]   = piece.lower[d] - margin;
-      n_nodes[d] = n_piece[d] + 2 * margin;
+      n_nodes[d] = piece.upper[d] - piece.lower[d] + 1 + 2 * margin;
     }
   Lattice<dim> lattice({placement.centre({}), placement.pixel_size, unbounded_box<dim>()}, lower,
                        n_nodes);
   std::fill(lattice.values().begin(), lattice.values().end(), 1.);
-  for (std::size_t k = 0; k < belongs.size(); ++k)
-    if (belongs[k])
-      {
-        std::size_t          rest = k;
-        std::array<int, dim> node = piece.lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            node[d] += rest % n_piece[d];
-            rest /= n_piece[d];
-          }
-        lattice(node) = -1.;
-      }
+  for (const auto &pixel : list_of_pixels(image, piece))
+    lattice(pixel) = -1.;
   return lattice;
 }
 

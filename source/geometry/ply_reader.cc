@@ -1,5 +1,5 @@
-#include <scree/geometry/growing_soup.h>
 #include <scree/geometry/number_type.h>
+#include <scree/geometry/triangle_readers.h>
 
 #include <limits>
 
@@ -164,59 +164,93 @@ private:
   std::size_t        place;
 };
 
-/** Reads the numbers of a property, the last of them, or those of a list. */
-std::vector<double>
-read_values(const PlyProperty &property, const std::size_t n_bytes, PlyNumbers &numbers)
+/** Reads a property: a number, or those of a list. */
+void
+read_values(const PlyProperty &property, const std::size_t n_bytes, PlyNumbers &numbers,
+            std::vector<double> &values)
 {
   const std::size_t n
     = property.is_list ? numbers.next_index(property.of_length, n_bytes, "length of a list") : 1;
-  std::vector<double> values;
+  values.clear();
   for (std::size_t i = 0; i < n; ++i)
     values.push_back(numbers.next(property.type));
-  return values;
+}
+
+/** The soup of the elements of a file, one after the other. */
+class PlySoup
+{
+public:
+  PlySoup(const std::size_t n_bytes, PlyNumbers &numbers)
+      : n_bytes(n_bytes)
+      , numbers(numbers)
+  {
+  }
+
+  void add(const PlyElement &element);
+
+  GrowingSoup growing;
+
+private:
+  /** Keeps what counts of `values`: coordinates of a vertex or corners of a face. */
+  void take(const PlyProperty &property);
+
+  const std::size_t        n_bytes; // of the file
+  PlyNumbers              &numbers;
+  std::vector<std::size_t> vertices; // their points
+  std::vector<double>      values;   // of a property
+  std::array<double, 3>    x = {};   // of an element
+  std::vector<std::size_t> face;     // of an element
+};
+
+void
+PlySoup::take(const PlyProperty &property)
+{
+  if (property.name.size() == 1 && property.name >= "x" && property.name <= "z" && !values.empty())
+    x[property.name[0] - 'x'] = values[0];
+  if (property.name != "vertex_indices" && property.name != "vertex_index")
+    return;
+  for (const double value : values)
+    {
+      if (!(value >= 0. && value < vertices.size()))
+        throw UserError(numbers.where(),
+                        "a face names none of the " + std::to_string(vertices.size())
+                          + " vertices before it",
+                        surface_remedy());
+      face.push_back(vertices[static_cast<std::size_t>(value)]);
+    }
+}
+
+void
+PlySoup::add(const PlyElement &element)
+{
+  x.fill(std::numeric_limits<double>::quiet_NaN());
+  face.clear();
+  for (const PlyProperty &property : element.properties)
+    {
+      read_values(property, n_bytes, numbers, values);
+      take(property);
+    }
+  if (element.name == "vertex")
+    vertices.push_back(growing.corner(x, [&]() { return numbers.where(); }));
+  if (element.name == "face")
+    {
+      if (face.size() < 3)
+        throw UserError(numbers.where(), "a face has fewer than 3 corners", surface_remedy());
+      growing.add_face(face);
+    }
 }
 } // namespace
 
 TriangleSoup
 read_ply(const std::string &bytes, const std::string &name)
 {
-  Words                    words(bytes, name);
-  const PlyHeader          header = read_header(words, bytes.size());
-  PlyNumbers               numbers(bytes, name, words, header);
-  GrowingSoup              growing;
-  std::vector<std::size_t> vertices; // their points
+  Words           words(bytes, name);
+  const PlyHeader header = read_header(words, bytes.size());
+  PlyNumbers      numbers(bytes, name, words, header);
+  PlySoup         soup(bytes.size(), numbers);
   for (const PlyElement &element : header.elements)
     for (std::size_t i = 0; i < element.n; ++i)
-      {
-        std::array<double, 3> x;
-        x.fill(std::numeric_limits<double>::quiet_NaN());
-        std::vector<std::size_t> face;
-        for (const PlyProperty &property : element.properties)
-          {
-            const std::vector<double> values = read_values(property, bytes.size(), numbers);
-            if (property.name.size() == 1 && property.name >= "x" && property.name <= "z"
-                && !values.empty())
-              x[property.name[0] - 'x'] = values[0];
-            if (property.name == "vertex_indices" || property.name == "vertex_index")
-              for (const double value : values)
-                {
-                  if (!(value >= 0. && value < vertices.size()))
-                    throw UserError(numbers.where(),
-                                    "a face names none of the " + std::to_string(vertices.size())
-                                      + " vertices before it",
-                                    surface_remedy());
-                  face.push_back(vertices[static_cast<std::size_t>(value)]);
-                }
-          }
-        if (element.name == "vertex")
-          vertices.push_back(growing.corner(x, [&]() { return numbers.where(); }));
-        if (element.name == "face")
-          {
-            require(face.size() >= 3, numbers.where(), "a face has fewer than 3 corners",
-                    surface_remedy());
-            growing.add_face(face);
-          }
-      }
-  return growing.soup;
+      soup.add(element);
+  return soup.growing.soup;
 }
 } // namespace scree

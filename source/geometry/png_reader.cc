@@ -120,13 +120,9 @@ read_png(const std::string &bytes, const std::string &name)
   for (std::size_t j = 0; j < height; ++j)
     rows[j] = &content[j * bytes_of_row];
   require_read(read_png_rows(reader, source, rows));
-  array.labels.resize(n_pixels);
-  for (std::size_t j = 0, k = 0; j < height; ++j)
-    for (std::size_t i = 0; i < width; ++i, ++k)
-      {
-        const png_byte *first = rows[j] + i * bytes_of_label;
-        array.labels[k]       = bytes_of_label == 1 ? first[0] : 256u * first[0] + first[1];
-      }
+  append_labels(reinterpret_cast<const char *>(content.data()), n_pixels,
+                bytes_of_label == 1 ? NumberType::uint8 : NumberType::uint16,
+                machine_is_little_endian(), name, array.labels);
   return array;
 }
 } // namespace scree

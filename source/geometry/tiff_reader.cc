@@ -112,13 +112,13 @@ struct TiffPage
   TiffPage(TIFF *tiff, const std::string &name);
 
   std::uint32_t width = 0, height = 0;
-  std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT;
   NumberType    type = NumberType::uint8;
 };
 
 TiffPage::TiffPage(TIFF *tiff, const std::string &name)
 {
-  std::uint16_t n_values = 1, colours = PHOTOMETRIC_MINISBLACK;
+  std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, n_values = 1,
+                colours = PHOTOMETRIC_MINISBLACK;
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);

@@ -1,4 +1,4 @@
-#include <scree/geometry/growing_soup.h>
+#include <scree/geometry/triangle_readers.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <cstdint>

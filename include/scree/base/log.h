@@ -41,6 +41,9 @@ std::string listed(const std::vector<std::string> &names);
 /** A number in few characters: 4 significant digits. */
 std::string short_number(const double value);
 
+/** A number in so many digits that it is the same when it is read again. */
+std::string exact_number(const double value);
+
 /** A place as "(0.5, 1)". */
 template <int dim>
 std::string

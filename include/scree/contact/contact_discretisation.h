@@ -28,12 +28,13 @@ struct ContactDiscretisation
  * @param points those of a pair one after the other
  * @param start_displacement u_n of the deformable bodies at the owned unknowns; null: zero
  * @param secant_ratios of plastic flow at the first unknown of each owned node; null: one
+ * @param start_gaps of pairs that are adjusted as a whole: found here if they are not known yet;
+ * null: this is the start of the run
  */
 template <int dim>
-ContactDiscretisation<dim>
-discretise_contact(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
-                   const std::vector<ContactPair> &pairs, std::vector<ContactPoint<dim>> &&points,
-                   const InitialGaps<dim>                      &initial_gaps,
-                   const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
-                   const dealii::TrilinosWrappers::MPI::Vector *secant_ratios);
+ContactDiscretisation<dim> discretise_contact(
+  const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+  const std::vector<ContactPair> &pairs, std::vector<ContactPoint<dim>> &&points,
+  InitialGaps<dim> &initial_gaps, const dealii::TrilinosWrappers::MPI::Vector *start_displacement,
+  const dealii::TrilinosWrappers::MPI::Vector *secant_ratios, StartGaps *start_gaps);
 } // namespace scree

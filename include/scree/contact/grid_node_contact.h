@@ -29,7 +29,7 @@ namespace scree
  * @param prediction empty, or without the test of early contact: as at the start of the step
  * @param start_displacement see discretise_contact()
  * @param secant_ratios see discretise_contact()
- * @param start_gaps see level_set_surface()
+ * @param start_gaps see discretise_contact()
  * @throws UserError if normals need a density that is missing, or a law the gaps beyond reach
  */
 template <int dim>

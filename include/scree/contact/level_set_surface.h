@@ -25,8 +25,7 @@ namespace scree
  * @param prediction empty: no sliding is expected
  * @param start_displacement u_n of the deformable bodies at the owned unknowns; null: zero
  * @param secant_ratios of plastic flow at the first unknown of each owned node; null: one
- * @param start_gaps of pairs that are adjusted as a whole: found here if they are not known yet;
- * null: this is the start of the run
+ * @param start_gaps see discretise_contact()
  * @throws UserError if the contact surface ends before the gaps that a law adjusts or glues
  */
 template <int dim>

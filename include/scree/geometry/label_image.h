@@ -59,6 +59,14 @@ public:
     return n;
   }
 
+  Pixel last_pixel() const
+  {
+    Pixel result = n;
+    for (int &number : result)
+      --number;
+    return result;
+  }
+
   /** The pixels from `lower` to `upper`, both ends included and in the image. */
   LabelImage part(const Pixel &lower, const Pixel &upper) const;
 
@@ -96,6 +104,11 @@ std::vector<LabelPiece<dim>> pieces_of(const LabelImage<dim> &image);
 /** The pixels of a piece in its box, x fastest: whether they belong to it. */
 template <int dim>
 std::vector<bool> pixels_of(const LabelImage<dim> &image, const LabelPiece<dim> &piece);
+
+/** The same as a list, in this order. */
+template <int dim>
+std::vector<typename LabelImage<dim>::Pixel> list_of_pixels(const LabelImage<dim> &image,
+                                                            const LabelPiece<dim> &piece);
 
 /**
  * Gives a piece the label with which it has most sides of pixels in common, the lowest of several.

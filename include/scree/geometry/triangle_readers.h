@@ -50,10 +50,9 @@ private:
 class Words
 {
 public:
-  Words(const std::string &text, const std::string &name, const std::size_t place = 0)
+  Words(const std::string &text, const std::string &name)
       : text(text)
       , name(name)
-      , place(place)
   {
   }
 
@@ -110,7 +109,7 @@ private:
 
   const std::string &text;
   const std::string  name;
-  std::size_t        place, line = 1;
+  std::size_t        place = 0, line = 1;
 };
 
 /** PLY: text or binary, elements vertex and face; faces of more than three corners become fans. */
