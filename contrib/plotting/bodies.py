@@ -221,12 +221,14 @@ def draw(run, field, step, warp, is_raw=False, range_of_colours=None):
 
 
 def section_plane(mesh, contact):
-    """Axis and position of the section: through the centre of the contact forces, normal to the axis y or, where
-    contact acts along y, x; without contact through the middle."""
+    """Axis and position of the section: through the centre of the contact forces, or where bodies are nearest before contact,
+    normal to the axis y or, where contact acts along y, x; without contact points through the middle."""
     middle = 0.5 * (mesh.points.min(axis=0) + mesh.points.max(axis=0))
-    if contact is None or not contact["pressure"].any():
+    if contact is None or not len(contact["gap"]):
         return 1, middle[1]
     force = contact["weight"] * contact["pressure"]
+    if not force.any():
+        force = (np.arange(len(force)) == np.argmin(contact["gap"])).astype(float)
     normal = [np.abs(force @ contact[f"normal_{axis}"]) for axis in "xyz"]
     axis = 0 if np.argmax(normal) == 1 else 1
     return axis, force @ contact["xyz"[axis]] / force.sum()

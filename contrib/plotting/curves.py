@@ -1,8 +1,8 @@
 """Curves: tractions along contact surfaces, and the history."""
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.tri import Triangulation
 
+from .recovery import smoothed
 from .results import ResultsError
 from .style import COLOURS, save, short
 
@@ -87,7 +87,7 @@ def draw_contact(run, step, references, pairs=None):
         chosen = table["pair"] == pair
         draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction[pair],
                   references, run)
-        panel.set_title(pair)
+        panel.set_title(pair, pad=14.0)
     time = run.time_of(step)
     figure.suptitle(run.title + (f", time {short(time)}" if time is not None else ""))
     if left_out:
@@ -130,7 +130,7 @@ def draw_pair(panel, table, friction, references, run):
     """Tractions over the surface; in degree 1 lines of means of the cells, for those of points saw-tooth, and faint points."""
     units = run.units
     if "z" in table:
-        draw_pair_3d(panel, table, units)
+        draw_pair_3d(panel, table, run)
         return
     position, label = position_along(table)
     order = np.argsort(position, kind="stable")
@@ -179,58 +179,49 @@ def upper_limit(table):
     return 1.3 * traction.max() if traction.max() < 4.0 * usual else 3.0 * usual
 
 
-def draw_pair_3d(panel, table, units):
-    """The pressure over the contact surface, seen along its mean normal, where there is contact, and arrows of the
-    tangential traction. Parts that face away are not seen; how many is told."""
+def draw_pair_3d(panel, table, run):
+    """The pressure over the contact surface, smoothed over a cell, seen along its mean normal where there is contact, and
+    arrows of the tangential traction. Parts that face away are not seen; how many is told."""
     normals = np.stack([table[f"normal_{axis}"] for axis in "xyz"], axis=1)
     mean = normals.mean(axis=0)
     kept = [axis for axis in range(3) if axis != int(np.argmax(np.abs(mean)))]
     points = np.stack([table["xyz"[axis]] for axis in kept], axis=1)
     is_closed = table["status"] > 0 if (table["status"] > 0).any() else np.full(len(points), True)
+    cell = cell_edge(table)
     low, high = points[is_closed].min(axis=0), points[is_closed].max(axis=0)
     # Contact at a point or two is seen with the points around it.
-    margin = max(0.15 * (high - low).max(), 2.0 * np.sqrt(table["weight"][is_closed].max()))
+    margin = max(0.15 * (high - low).max(), 2.0 * cell)
+    box = [np.array([float(v) for v in run.parameters.get(f"Grid/{corner} corner", f"{end},{end},{end}").split(",")])[kept]
+           for corner, end in (("Lower", "-inf"), ("Upper", "inf"))]
+    low, high = np.maximum(low - margin, box[0]), np.minimum(high + margin, box[1])
     seen = normals @ mean > 0.2 * np.linalg.norm(mean)
-    shown = ((points > low - margin) & (points < high + margin)).all(axis=1) & seen
-    points, pressure = points[shown], table["pressure"][shown]
-    surface = surface_of(points, 2.5 * np.sqrt(table["weight"][shown].max(initial=0.0)))
-    if surface is None:
-        colours = panel.scatter(*points.T, c=pressure, s=16, marker="s", linewidths=0, cmap="viridis")
-    else:
-        colours = panel.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", rasterized=True)
-    tau = np.stack([table[f"tau_{'xyz'[axis]}"] for axis in kept], axis=1)[shown]
-    if np.abs(tau).max(initial=0.0) > 0.0:
-        arrows = np.flatnonzero(np.linalg.norm(tau, axis=1) > 0.0)
+    near = ((points > low - 2.0 * cell) & (points < high + 2.0 * cell)).all(axis=1) & seen
+    image, extent = smoothed(points[near], table["weight"][near], table["pressure"][near], cell, 0.5 * cell, low, high)
+    colours = panel.imshow(image.clip(0.0), extent=extent, origin="lower", cmap="viridis", interpolation="bilinear", vmin=0.0)
+    tau = np.stack([table[f"tau_{'xyz'[axis]}"] for axis in kept], axis=1)
+    arrows = np.flatnonzero((np.linalg.norm(tau, axis=1) > 0.0) & near)
+    if arrows.size:
         arrows = arrows[::max(1, len(arrows) // 400)]
         panel.quiver(*points[arrows].T, *tau[arrows].T, color="white", width=0.002)
     panel.set_aspect("equal")
     panel.grid(False)
-    panel.set_xlabel(units.label("xyz"[kept[0]], "length"))
-    panel.set_ylabel(units.label("xyz"[kept[1]], "length"))
-    label = "pressure p" + (r", arrows: tangential traction" if np.abs(tau).max(initial=0.0) > 0.0 else "")
-    bar = panel.figure.colorbar(colours, ax=panel, label=units.label(label, "stress"), shrink=0.85)
-    bar.ax.set_title(f"max {short(pressure.max(initial=0.0))}", fontsize=9)
+    panel.set_xlabel(run.units.label("xyz"[kept[0]], "length"))
+    panel.set_ylabel(run.units.label("xyz"[kept[1]], "length"))
+    told = "p is smoothed over a cell" + (", arrows: tangential traction" if arrows.size else "")
+    panel.annotate(told, (0.0, 1.0), xycoords="axes fraction", va="bottom", fontsize=8)
+    bar = panel.figure.colorbar(colours, ax=panel, label=run.units.label("pressure p", "stress"), shrink=0.85)
+    bar.ax.set_title(f"max {short(np.nanmax(image, initial=0.0))}", fontsize=9)
     behind = np.sum(table["weight"][~seen & (table["status"] > 0)]) / max(np.sum(table["weight"][table["status"] > 0]), 1e-300)
     if behind > 0.005:
-        panel.annotate(f"{100.0 * behind:.0f} % of the contact faces away and is not seen", (0.0, 1.0),
-                       xycoords="axes fraction", va="bottom", fontsize=8)
+        panel.annotate(f"{100.0 * behind:.0f} % of the contact faces away and is not seen", (0.02, 0.98),
+                       xycoords="axes fraction", va="top", fontsize=8, color="white")
 
 
-def surface_of(points, longest):
-    """The triangulation of scattered points of a surface without triangles with an edge longer than `longest`."""
-    if len(points) < 3:
-        return None
-    try:
-        surface = Triangulation(*points.T)
-    except (RuntimeError, ValueError):  # all on a line
-        return None
-    corners = points[surface.triangles]
-    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-    kept = edges.max(axis=1) <= longest
-    if not kept.any():
-        return None
-    surface.set_mask(~kept)
-    return surface
+def cell_edge(table):
+    """The edge of the cells in contact: the root of the largest area of points with the same mean pressure of their cell."""
+    _, cell = np.unique(table["cell_pressure"], return_inverse=True)
+    areas = np.bincount(cell, np.where(table["cell_pressure"] > 0.0, table["weight"], 0.0))
+    return np.sqrt(max(areas.max(initial=0.0), table["weight"].max()))
 
 
 def draw_history(run):

@@ -1,4 +1,4 @@
-"""Smooth fields: values at the nodes of each body, recovered from those of the cells around them."""
+"""Smooth fields: values at the nodes of each body, recovered from those of the cells around them, and images of scattered values."""
 import numpy as np
 
 from .results import BodyMesh
@@ -36,3 +36,35 @@ def recovered(mesh, values):
     weight = np.bincount(number, size)
     mean = np.bincount(number, size * values) / np.where(weight > 0.0, weight, 1.0)
     return np.where(weight[number] > 0.0, mean[number], values)
+
+
+def smoothed(points, weights, values, radius, reach, low, high):
+    """An image, over low to high, of scattered values (n) at points (n, 2) with areas `weights`: in each pixel the moving least
+    squares fit of degree 1 with the kernel (1 - (r/radius)^2)^2, nan farther than `reach` from all points; and its extent."""
+    edge = max(radius / 8.0, (high - low).max() / 1000.0)
+    shape = np.ceil((high - low) / edge).astype(int).clip(1)  # columns, rows
+    edge = (high - low) / shape
+    steps = [np.arange(-n, n + 1) for n in np.ceil(radius / edge).astype(int)]
+    offsets = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    # Sums over the points around a pixel: of 1, x, y, x^2, xy, y^2 with the kernel, of v, vx, vy, and how many are near.
+    sums = np.zeros((10, shape.prod()))
+    for first in range(0, len(points), 10000):
+        part = np.s_[first:first + 10000]
+        pixel = np.floor((points[part] - low) / edge).astype(int)[:, None, :] + offsets
+        distance = points[part][:, None, :] - (low + (pixel + 0.5) * edge)
+        square = (distance ** 2).sum(axis=2)
+        used = (square < radius ** 2) & (pixel >= 0).all(axis=2) & (pixel < shape).all(axis=2)
+        number = (pixel[..., 1] * shape[0] + pixel[..., 0])[used]
+        x, y = (distance[used] / radius).T
+        kernel = (np.broadcast_to(weights[part, None], used.shape)[used]) * (1.0 - square[used] / radius ** 2) ** 2
+        value = np.broadcast_to(values[part, None], used.shape)[used]
+        for row, factor in enumerate((1.0, x, y, x * x, x * y, y * y, value, value * x, value * y)):
+            sums[row] += np.bincount(number, kernel * factor, minlength=shape.prod())
+        sums[9] += np.bincount(number, square[used] < reach ** 2, minlength=shape.prod())
+    matrix = sums[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]].transpose(2, 0, 1)
+    # A little of the mean where points lie on a line.
+    matrix[:, [1, 2], [1, 2]] += 1e-3 * matrix[:, [0], 0]
+    image = np.full(shape.prod(), np.nan)
+    is_near = sums[9] > 0
+    image[is_near] = np.linalg.solve(matrix[is_near], sums[6:9, is_near].T[..., None])[:, 0, 0]
+    return image.reshape(shape[::-1]), (low[0], high[0], low[1], high[1])

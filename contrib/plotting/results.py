@@ -83,11 +83,13 @@ class BodyMesh:
         from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
         points, fields, cells, offset = [], {}, {}, 0
+        self.names = []
         for path in pieces:
             reader = vtkXMLUnstructuredGridReader()
             reader.SetFileName(str(path))
             reader.Update()
             grid = reader.GetOutput()
+            self.names = names_of_bodies(grid.GetFieldData())
             moved = grid.GetFieldData().GetArray("points_are_moved")
             is_moved = moved.GetValue(0) if moved else is_moved
             if grid.GetNumberOfPoints() == 0:
@@ -165,6 +167,13 @@ class BodyMesh:
         return np.concatenate(edges)
 
 
+def names_of_bodies(field_data):
+    """The names of all bodies in the order of their numbers, by the field data body.NAME."""
+    arrays = [field_data.GetArray(i) for i in range(field_data.GetNumberOfArrays())]
+    numbers = {a.GetName()[len("body."):]: a.GetValue(0) for a in arrays if a and a.GetName().startswith("body.")}
+    return sorted(numbers, key=numbers.get)
+
+
 class RunResults:
     """An output directory: which steps there are, and their tables and meshes."""
 
@@ -217,32 +226,29 @@ class RunResults:
 
     def mesh(self, step):
         mesh = BodyMesh(self.body_files[step], self.is_moving)
-        mesh.rigid_bodies = np.flatnonzero(list(self.bodies().values()))
+        mesh.names = mesh.names or self.names("Bodies")  # files of version 0.1 have none
+        mesh.rigid_bodies = np.flatnonzero([self.is_rigid(name) for name in mesh.names])
         return mesh
 
     @property
     def is_moving(self):
         return self.parameters.get("Moving geometry/Update", "none") != "none"
 
-    def bodies(self):
-        """{name: whether it is rigid} in the order of their numbers. Families stand for many bodies: grains.csv has them all;
-        before the first step they are not known, and nothing is."""
-        file = self.directory / "grains.csv"
-        if file.exists():
-            grains = read_table(file)
-            if "stress_xx" in grains:
-                first = grains["step"] == grains["step"][0]
-                return dict(zip(map(str, grains["body"][first]), np.isnan(grains["stress_xx"][first])))
-        if any(self.parameters.get(f"Bodies/{name}/Family", "none") != "none" for name in self.names("Bodies")):
-            return {}
-        return {name: self.is_rigid(name) for name in self.names("Bodies")}
+    def section_of(self, body):
+        """The section in Bodies of a body: its own, or that of its family, of which FAMILY-0017 is one."""
+        return body if body in self.names("Bodies") else body.rpartition("-")[0]
 
     def is_rigid(self, body):
-        material = self.parameters.get(f"Bodies/{body}/Material", "")
+        material = self.parameters.get(f"Bodies/{self.section_of(body)}/Material", "")
         return self.parameters.get(f"Materials/{material}/Law", "") == "rigid"
 
     def contact(self, step):
         return read_table(self.contact_files[step][0])
+
+    def regions(self):
+        """The points of conditions on cut surfaces; empty without any."""
+        file = self.directory / "regions.csv"
+        return read_table(file) if file.exists() else {}
 
     def history(self):
         """With the columns of pairs, wherever they are."""

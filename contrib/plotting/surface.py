@@ -8,6 +8,7 @@ from matplotlib.colors import Normalize, to_rgba
 from .results import BodyMesh
 from .style import RIGID, figure_for
 
+CELL_EDGE = "#9a9a9a"
 PIXELS = 1000  # along the longer side of the picture
 # A cube in six tetrahedra around the diagonal of the vertices 0 and 6 of VTK's order.
 SIX_TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
@@ -73,18 +74,35 @@ class Raster:
         """Whether a pixel lies where one body ends: beside nothing, another body (n triangles), or a step in depth."""
         shown = np.where(self.triangle >= 0, body[self.triangle], -1)
         finite = np.where(self.triangle >= 0, self.nearness, 0.0)
-        result = np.zeros(shown.shape, dtype=bool)
-        for axis in (0, 1):
-            before, after = (np.take(shown, range(*r), axis) for r in ((0, shown.shape[axis] - 1), (1, shown.shape[axis])))
-            step = np.abs(np.diff(finite, axis=axis)) > 20.0 * self.pixel
-            edge = (before != after) | (step & (before >= 0) & (after >= 0))
-            result |= np.pad(edge, [(0, 1) if a == axis else (0, 0) for a in (0, 1)])
-        return result
+        return between(lambda axis: (np.diff(shown, axis=axis) != 0) | (np.abs(np.diff(finite, axis=axis)) > 20.0 * self.pixel))
+
+    def cell_edges(self, cell):
+        """Whether a pixel lies between two cells (n triangles), of which numbers below 0 are none."""
+        shown = np.where(self.triangle >= 0, cell[self.triangle], -1)
+        return between(lambda axis: (np.diff(shown, axis=axis) != 0) & (pairwise(np.maximum, shown, axis) >= 0))
+
+    def sees(self, plane, nearness):
+        """Whether points of the surface at `plane` (n, 2) are in front."""
+        column, row = np.floor((plane - self.low) / self.pixel).astype(int).T
+        inside = (column >= 0) & (row >= 0) & (column < self.triangle.shape[1]) & (row < self.triangle.shape[0])
+        row, column = np.where(inside, (row, column), 0)
+        return inside & (nearness > self.nearness[row, column] - 3.0 * self.pixel)
 
     def draw(self, axes, colours, outlines):
         """Colours (height, width, 4) with black outlines."""
         colours[outlines] = (0.0, 0.0, 0.0, 1.0)
         axes.imshow(colours, extent=self.extent, origin="lower", interpolation="antialiased", zorder=1)
+
+
+def pairwise(function, image, axis):
+    """The function of all pixels and of those that follow along an axis."""
+    n = image.shape[axis]
+    return function(np.take(image, range(n - 1), axis), np.take(image, range(1, n), axis))
+
+
+def between(changes):
+    """Whether a pixel differs from the next one along either axis; `changes` tells it for the pairs along an axis."""
+    return np.pad(changes(0), [(0, 1), (0, 0)]) | np.pad(changes(1), [(0, 0), (0, 1)])
 
 
 def surface_triangles(mesh):
@@ -129,15 +147,16 @@ def section_triangles(mesh, axis, position):
     return pairs, share
 
 
-def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis"):
+def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis", cells=None, marks=(), extra=1.2):
     """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the
-    corner between x and -y. Figure, axes, and the colours for a bar."""
+    corner between x and -y; edges of `cells` (a number for each point, below 0: none), and `marks`: pairs of points on the surface
+    (n, 3) and their colour; `extra` room beside it in inches. Figure, axes, and the colours for a bar."""
     view = View()
     triangles = surface_triangles(mesh)
     plane, nearness = view.project(deformed)
     used = np.unique(triangles)
     corners = plane[used] if box is None else view.project(np.array(list(itertools.product(*zip(*box)))))[0]
-    figure, axes = figure_for(corners)
+    figure, axes = figure_for(corners, extra=extra)
     axes.set_axis_off()
     raster = Raster(plane, nearness, triangles)
     a, b, c = (deformed[triangles[:, i]] for i in range(3))
@@ -151,6 +170,11 @@ def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viri
         image[~shown[triangles[:, 0]][raster.triangle]] = to_rgba(RIGID)
     image[:, :, :3] *= light[raster.triangle][:, :, None]
     image[raster.triangle < 0] = 0.0
+    if cells is not None:
+        image[raster.cell_edges(cells[triangles[:, 0]])] = to_rgba(CELL_EDGE)
+    for points, colour in marks:
+        plane, nearness = view.project(points)
+        axes.plot(*plane[raster.sees(plane, nearness)].T, "o", markersize=4, color=colour, alpha=0.6, zorder=3)
     outlines = raster.outlines(mesh.body[triangles[:, 0]])
     if shown is not None and not shown.all() and shown.any():
         see_through(mesh, plane, nearness, triangles[shown[triangles[:, 0]]], raster, image, outlines, colours, values)
@@ -167,19 +191,22 @@ def see_through(mesh, plane, nearness, triangles, raster, image, outlines, colou
     outlines |= inner.outlines(mesh.body[triangles[:, 0]]) & (hidden | (inner.triangle < 0)) & (raster.triangle >= 0)
 
 
-def draw_section(mesh, deformed, values, section, scale, shown, cmap="viridis"):
-    """The section with the plane (axis, position) of the undeformed bodies. Figure, axes, and the colours."""
+def draw_section(mesh, deformed, values, section, scale, shown, cmap="viridis", cells=None, extra=1.2):
+    """The section with the plane (axis, position) of the undeformed bodies, with edges of `cells` as of the surface. Figure, axes,
+    and the colours."""
     pairs, share = section_triangles(mesh, *section)
     kept = [axis for axis in range(3) if axis != section[0]]
     at = [deformed[:, kept], values]
     plane, field = ((1.0 - share)[..., None] * a.reshape(len(a), -1)[pairs[:, :, 0]]
                     + share[..., None] * a.reshape(len(a), -1)[pairs[:, :, 1]] for a in at)
     plane = plane.reshape(-1, 2)
-    figure, axes = figure_for(plane)
+    figure, axes = figure_for(plane, extra=extra)
     raster = Raster(plane, np.zeros(len(plane)), np.arange(len(plane)).reshape(-1, 3))
     colours = ScalarMappable(Normalize(*scale), cmap)
     image = colours.to_rgba(raster.values(field[..., 0]))
     image[~shown[pairs[:, 0, 0]][raster.triangle]] = to_rgba(RIGID)
     image[raster.triangle < 0] = 0.0
+    if cells is not None:
+        image[raster.cell_edges(cells[pairs[:, 0, 0]])] = to_rgba(CELL_EDGE)
     raster.draw(axes, image, raster.outlines(mesh.body[pairs[:, 0, 0]]))
     return figure, axes, colours
