@@ -1,5 +1,6 @@
 #include <scree/application/implicit_stepper.h>
 #include <scree/application/relaxation.h>
+#include <scree/base/exceptions.h>
 
 namespace scree
 {
@@ -59,21 +60,28 @@ Relaxation<dim>::run()
   double drag                      = first_drag;
   run_log.log.line("  where bodies go is sought against a drag, in up to "
                    + std::to_string(max_moves) + " moves");
-  for (unsigned int n_moves = 0; n_moves < max_moves && drag <= largest_drag;)
+  try
     {
-      const auto motion = move(drag);
-      if (!motion)
+      for (unsigned int n_moves = 0; n_moves < max_moves && drag <= largest_drag;)
         {
-          drag *= growth;
-          continue;
+          const auto motion = move(drag);
+          if (!motion)
+            {
+              drag *= growth;
+              continue;
+            }
+          ++n_moves;
+          drag *= decay;
+          if (*motion > at_rest * h && drag > smallest_drag)
+            continue;
+          run_log.log.line("  bodies go there against a drag, in " + std::to_string(n_moves)
+                           + " move(s) and " + std::to_string(n_iterations) + " iterations");
+          return true;
         }
-      ++n_moves;
-      drag *= decay;
-      if (*motion > at_rest * h && drag > smallest_drag)
-        continue;
-      run_log.log.line("  bodies go there against a drag, in " + std::to_string(n_moves)
-                       + " move(s) and " + std::to_string(n_iterations) + " iterations");
-      return true;
+    }
+  catch (const TornBody &error)
+    {
+      run_log.log.line("  the drag leads nowhere: " + std::string(error.what()));
     }
   go_back();
   return false;

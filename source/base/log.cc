@@ -75,12 +75,13 @@ exact_number(const double value)
 std::string
 listed(const std::vector<std::string> &names)
 {
-  std::string text;
-  for (unsigned int i = 0; i < names.size() && i < most_told; ++i)
+  constexpr std::size_t first_of_many = 8;
+  const std::size_t     n_told        = names.size() <= most_told ? names.size() : first_of_many;
+  std::string           text;
+  for (std::size_t i = 0; i < n_told; ++i)
     text += (i == 0 ? "" : ", ") + names[i];
-  return names.size() <= most_told
-           ? text
-           : text + " and " + std::to_string(names.size() - most_told) + " more";
+  return n_told == names.size() ? text
+                                : text + " and " + std::to_string(names.size() - n_told) + " more";
 }
 
 std::string

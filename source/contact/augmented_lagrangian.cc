@@ -16,7 +16,7 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const std::vector<ContactStiffness
     , normal(points, communicator)
     , tangential(normal)
 {
-  constexpr double smallest_part = 0.05; // of the face of a cell
+  constexpr double smallest_part = MultiplierField<dim>::smallest_part;
   for (const ContactPoint<dim> &point : points)
     this->points.push_back(
       {point.normal, point.initial_gap, point.cell_size,
@@ -52,6 +52,8 @@ template <int dim>
 dealii::Tensor<1, dim>
 AugmentedLagrangian<dim>::multiplier(const unsigned int point) const
 {
+  if (!points[point].has_multiplier)
+    return {};
   const auto            &n      = points[point].normal;
   dealii::Tensor<1, dim> result = (normal(point) * n) * n;
   if (points[point].is_closed_at_start)
@@ -142,6 +144,7 @@ template <int dim>
 bool
 AugmentedLagrangian<dim>::update(const std::vector<ContactResponse<dim>> &responses)
 {
+  const std::vector<Point> last = points;
   choose_points(responses);
   std::vector<dealii::Tensor<1, dim>> changes;
   for (unsigned int p = 0; p < points.size(); ++p)
@@ -157,7 +160,10 @@ AugmentedLagrangian<dim>::update(const std::vector<ContactResponse<dim>> &respon
   const double mean = std::max(normal.largest_mean(motions[0], with[0]),
                                tangential.largest_mean(motions[1], with[1]));
   if (mean <= parameters.largest_gap)
-    return true;
+    {
+      points = last; // this equilibrium is of these
+      return true;
+    }
   normal.add_fit(of_changes[0], with[0]);
   tangential.add_fit(of_changes[1], with[1]);
   if (mean > 0.25 * last_mean)

@@ -61,6 +61,7 @@ MultiplierField<dim>::MultiplierField(const std::vector<ContactPoint<dim>> &poin
     {
       const ContactPoint<dim> &point = points[p];
       weights.push_back(point.weight);
+      faces.push_back(std::pow(point.cell_size, dim - 1));
       if (point.is_node)
         {
           keys.insert(keys.end(), n_corners, key_of_own(point, rank, p));
@@ -139,17 +140,15 @@ MultiplierField<dim>::moments(const std::vector<dealii::Tensor<1, dim>> &values,
 }
 
 template <int dim>
+template <typename Function>
 std::vector<double>
-MultiplierField<dim>::integrals(const unsigned int power, const std::vector<bool> &closed) const
+MultiplierField<dim>::sums(const std::vector<bool> &closed, const Function &of_point) const
 {
   std::vector<double> result(nodal.size());
   for (unsigned int p = 0; p < supports.size(); ++p)
     if (closed[p])
       for (unsigned int v = 0; v < n_corners; ++v)
-        {
-          const double N = supports[p].values[v];
-          result[supports[p].nodes[v]] += weights[p] * (power == 1 ? N : N * N);
-        }
+        result[supports[p].nodes[v]] += of_point(p, supports[p].values[v]);
   dealii::Utilities::MPI::sum(result, communicator, result);
   return result;
 }
@@ -158,10 +157,11 @@ template <int dim>
 void
 MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vector<bool> &closed)
 {
-  constexpr unsigned int n_iterations = 6;
-  constexpr double       round_off    = 1e-16; // squared
-  const auto             diagonal     = integrals(2, closed);
-  const auto             at_points    = [&](const std::vector<Value> &of_nodes) {
+  constexpr unsigned int most_iterations = 200;
+  constexpr double       tolerance       = 1e-20; // squared
+  const auto             diagonal
+    = sums(closed, [&](const unsigned int p, const double N) { return weights[p] * N * N; });
+  const auto at_points = [&](const std::vector<Value> &of_nodes) {
     std::vector<Value> result;
     for (const Support &support : supports)
       result.push_back(at(of_nodes, support));
@@ -169,7 +169,7 @@ MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vecto
   };
   std::vector<Value> fit(nodal.size()), direction(nodal.size()), r = moments(values, closed);
   double             r_z = 0., first_r_z = 0.;
-  for (unsigned int n = 0; n < n_iterations; ++n)
+  for (unsigned int n = 0; n < most_iterations; ++n)
     {
       const double       last_r_z = r_z;
       std::vector<Value> z(r.size());
@@ -182,7 +182,7 @@ MultiplierField<dim>::add_fit(const std::vector<Value> &values, const std::vecto
           }
       if (n == 0)
         first_r_z = r_z;
-      if (r_z <= round_off * first_r_z)
+      if (r_z <= tolerance * first_r_z)
         break;
       for (unsigned int i = 0; i < r.size(); ++i)
         direction[i] = n == 0 ? z[i] : z[i] + (r_z / last_r_z) * direction[i];
@@ -208,11 +208,14 @@ double
 MultiplierField<dim>::largest_mean(const std::vector<dealii::Tensor<1, dim>> &values,
                                    const std::vector<bool>                   &closed) const
 {
-  const auto area   = integrals(1, closed);
+  const auto area
+    = sums(closed, [&](const unsigned int p, const double N) { return weights[p] * N; });
+  const auto part
+    = sums(closed, [&](const unsigned int p, const double N) { return weights[p] / faces[p] * N; });
   const auto moment = moments(values, closed);
   double     result = 0.;
   for (unsigned int i = 0; i < area.size(); ++i)
-    if (area[i] > 0.)
+    if (part[i] >= smallest_part)
       result = std::max(result, moment[i].norm() / area[i]);
   return result;
 }

@@ -135,7 +135,7 @@ DiscreteProblem<dim>::start_of_step(State<dim> &state) const
 {
   const MovingGeometryParameters &moving = parameters.moving;
   if (state.has_started)
-    distribute_points(space, moving, state.points);
+    distribute_points(space, bodies, moving, state.points);
   else
     state.points = seed_points(space, level_set_nodes, bodies, quadrature, moving);
   return std::make_unique<const StepStart<dim>>(space, quadrature, bodies, state.points, moving);

@@ -26,15 +26,15 @@ seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level
 
 template <int dim>
 void
-distribute_points(const DisplacementSpace<dim> &space, const MovingGeometryParameters &parameters,
-                  MaterialPoints<dim> &points)
+distribute_points(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+                  const MovingGeometryParameters &parameters, MaterialPoints<dim> &points)
 {
   // Points may spread a little first, but in a cell that was halved they are divided.
   constexpr double largest_spread = 1.4;
   const auto       owner = [&](const dealii::Point<dim> &x) { return space.grid.locate(x).rank; };
   send_to_owners<dim>(points, owner, space.grid.communicator());
   std::vector<double> cell_size;
-  for (const auto &location : locate_points(space, points))
+  for (const auto &location : locate_points(space, bodies, points))
     cell_size.push_back(largest_spread * space.cell_size(location.active_cell));
   const unsigned int degree = space.basis.degree;
   split_points<dim>(
@@ -97,15 +97,15 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                             \
-  template MaterialPoints<dim> seed_points(                                                                \
-    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,            \
-    const CutQuadrature<dim> &, const MovingGeometryParameters &);                                         \
-  template void                distribute_points(const DisplacementSpace<dim> &,                           \
-                                                 const MovingGeometryParameters &, MaterialPoints<dim> &); \
-  template MaterialPoints<dim> moved_points(                                                               \
-    const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &,                                    \
-    const std::vector<PointHistory<dim>> &, const std::vector<Body<dim>> &,                                \
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template MaterialPoints<dim> seed_points(                                                       \
+    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &,   \
+    const CutQuadrature<dim> &, const MovingGeometryParameters &);                                \
+  template void distribute_points(const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, \
+                                  const MovingGeometryParameters &, MaterialPoints<dim> &);       \
+  template MaterialPoints<dim> moved_points(                                                      \
+    const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &,                           \
+    const std::vector<PointHistory<dim>> &, const std::vector<Body<dim>> &,                       \
     const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
 
 SCREE_INSTANTIATE(2)

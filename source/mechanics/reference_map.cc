@@ -234,19 +234,30 @@ private:
 
 template <int dim>
 std::vector<PointInCell<dim>>
-locate_points(const DisplacementSpace<dim> &space, const MaterialPoints<dim> &points)
+locate_points(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
+              const MaterialPoints<dim> &points)
 {
   std::vector<PointInCell<dim>> result;
   result.reserve(points.size());
+  std::vector<double> lost(bodies.size(), 0.);
   for (std::size_t p = 0; p < points.size(); ++p)
     {
       const int cell = space.nearest_active_cell(points.position[p], points.body[p]);
-      AssertThrow(cell >= 0,
-                  dealii::ExcMessage("the material point at " + short_place(points.position[p])
-                                     + " left body " + std::to_string(points.body[p])));
-      result.push_back(
-        {static_cast<unsigned int>(cell), space.unit_point(cell, points.position[p])});
+      if (cell < 0)
+        lost[points.body[p]] += 1.;
+      else
+        result.push_back(
+          {static_cast<unsigned int>(cell), space.unit_point(cell, points.position[p])});
     }
+  dealii::Utilities::MPI::sum(lost, space.grid.communicator(), lost);
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (lost[b] > 0.)
+      throw TornBody(bodies[b].path,
+                     std::to_string(std::lround(lost[b])) + " material points of the body '"
+                       + bodies[b].name
+                       + "' are farther than a cell from it: it is torn, or thinner than a cell",
+                     "raise Grid/Finest level, so that its thinnest part is three cells wide, or "
+                     "use more steps");
   return result;
 }
 
@@ -263,11 +274,11 @@ fit_displacement(const DisplacementSpace<dim> &space, const std::vector<Body<dim
   return displacement;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                   \
-  template std::vector<PointInCell<dim>>         locate_points(const DisplacementSpace<dim> &,   \
-                                                               const MaterialPoints<dim> &);     \
-  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                               \
-    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, const MaterialPoints<dim> &, \
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template std::vector<PointInCell<dim>> locate_points(                                           \
+    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, const MaterialPoints<dim> &); \
+  template dealii::TrilinosWrappers::MPI::Vector fit_displacement(                                \
+    const DisplacementSpace<dim> &, const std::vector<Body<dim>> &, const MaterialPoints<dim> &,  \
     const std::vector<PointInCell<dim>> &);
 
 SCREE_INSTANTIATE(2)

@@ -138,7 +138,7 @@ StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadratu
     , bodies(bodies)
     , own_points(points)
     , parameters(parameters)
-    , locations(locate_points(space, points))
+    , locations(locate_points(space, bodies, points))
     , displacements(space)
     , cloud(points.n_internal())
 {

@@ -164,6 +164,15 @@ TEST(Exceptions, OneMessage)
   EXPECT_THROW(require(false, "Grid", "is wrong"), UserError);
 }
 
+TEST(Log, ListsOfNames)
+{
+  std::vector<std::string> names(most_told, "a");
+  EXPECT_EQ(listed({"a", "b"}), "a, b");
+  EXPECT_EQ(listed(names).size(), 3 * most_told - 2);
+  names.emplace_back("b");
+  EXPECT_EQ(listed(names), "a, a, a, a, a, a, a, a and " + std::to_string(most_told - 7) + " more");
+}
+
 TEST(Log, NumbersAndDurations)
 {
   EXPECT_EQ(short_number(0.0312512345), "0.03125");

@@ -144,7 +144,7 @@ TEST(FitOfDisplacement, KeepsFieldsOfTheSpaceUpToTheirJumps)
       field.compress(VectorOperation::insert);
       const auto ghosted = plain.equilibrium.at_points(field);
       auto       points  = plain.points;
-      const auto cells   = locate_points(*plain.cut.space, points);
+      const auto cells   = locate_points(*plain.cut.space, plain.cut.bodies, points);
       for (std::size_t p = 0; p < points.size(); ++p)
         points.reference_position[p]
           -= plain.bulk.sample(cells[p].active_cell, cells[p].unit_point, ghosted).displacement;

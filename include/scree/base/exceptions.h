@@ -21,6 +21,16 @@ public:
   UserError(const std::string &where, const std::string &what, const std::string &remedy = "");
 };
 
+/**
+ * A body is torn, or so thin that the grid no longer holds it: a step that goes there may be tried
+ * in another way. Thrown on all processes.
+ */
+class TornBody : public UserError
+{
+public:
+  using UserError::UserError;
+};
+
 /** Throws UserError(where, what, remedy) unless `condition` holds. */
 void require(const bool condition, const std::string &where, const std::string &what,
              const std::string &remedy = "");

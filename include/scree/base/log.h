@@ -35,7 +35,7 @@ private:
 /** Names that are told one by one. */
 constexpr unsigned int most_told = 30;
 
-/** "a, b, c", the first of many with the number of the others. */
+/** "a, b, c", of more than most_told the first 8 and the number of the others. */
 std::string listed(const std::vector<std::string> &names);
 
 /** A number in few characters: 4 significant digits. */

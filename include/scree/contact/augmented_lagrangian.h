@@ -16,13 +16,14 @@ namespace scree
  *     tau_t = lambda_t - eps_t f P ([[u]] - [[u]]_n).
  *
  * In each equilibrium lambda <- p n + tau (Uzawa), until the mean gap of closed points is zero near
- * each node, and so is the mean slide of those that stick. A point that opens loses its multiplier,
- * but only once in a step, else those at the edge of contact would open and close in turns. Gaps in
- * between are of higher order in h. Points that close in a step have no lambda_t yet: what slid
- * before they closed is not to be undone. A step starts with the tractions at the end of the last
- * one. If an update does not make the means four times smaller, the penalties of the rest of the
- * step grow. Nothing is stored. Grid nodes with less than a twentieth of the area of a cell's face
- * keep their penalty and have no multiplier, which it would hardly move.
+ * each node, and so is the mean slide of those that stick. Open points have none, whatever the
+ * field is there: beyond the edge of contact it would press what comes near. A point that opens
+ * loses its multiplier, but only once in a step, else those at the edge would open and close in
+ * turns. Gaps in between are of higher order in h. Points that close in a step have no lambda_t
+ * yet: what slid before they closed is not to be undone. A step starts with the tractions at the
+ * end of the last one. If an update does not make the means four times smaller, the penalties of
+ * the rest of the step grow. Nothing is stored. Grid nodes with less than a twentieth of the area
+ * of a cell's face keep their penalty and have no multiplier, which it would hardly move.
  */
 template <int dim>
 class AugmentedLagrangian : public Enforcement<dim>
@@ -69,7 +70,7 @@ private:
     bool                   has_opened         = false; //!< in this step, after it had one
   };
 
-  /** lambda at a point. */
+  /** lambda at a point, 0 where it has none. */
   dealii::Tensor<1, dim> multiplier(const unsigned int point) const;
   /** Decides which points have multipliers after an equilibrium. */
   void choose_points(const std::vector<ContactResponse<dim>> &responses);

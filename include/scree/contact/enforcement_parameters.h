@@ -10,10 +10,10 @@ namespace scree
 struct EnforcementParameters
 {
   std::string  type            = "penalty";
-  double       largest_gap     = 1e-5; //!< of gaps and slides that should be zero [h]
-  unsigned int maximum_updates = 20;   //!< of multipliers in a step
-  double       growth          = 4.;   //!< of penalties that multipliers follow too slowly
-  double       largest_growth  = 16.;  //!< of penalties in a step
+  double       largest_gap     = 1e-5;  //!< of gaps and slides that should be zero [h]
+  unsigned int maximum_updates = 20;    //!< of multipliers in a step
+  double       growth          = 10.;   //!< of penalties that multipliers follow too slowly
+  double       largest_growth  = 1000.; //!< of penalties in a step
 
   void declare(ParameterSection &section);
 };

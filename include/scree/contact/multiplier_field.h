@@ -23,6 +23,8 @@ class MultiplierField
 public:
   using Value = dealii::Tensor<1, dim>;
 
+  static constexpr double smallest_part = 0.05;
+
   /** Of these points (collective). */
   MultiplierField(const std::vector<ContactPoint<dim>> &points, const MPI_Comm communicator);
 
@@ -33,15 +35,17 @@ public:
   Value operator()(const unsigned int point) const;
 
   /**
-   * Adds the field that fits values at closed points best: nearly the least int |lambda - v|^2, by
-   * a few iterations of conjugate gradients, which leave out what the points hardly see. Nodes
-   * without closed points become zero. Collective.
+   * Adds the field that fits values at closed points best: the least int |lambda - v|^2, by
+   * conjugate gradients, to 1e-10 (what they leave at slivers of the surface would come and go from
+   * update to update), without what the points do not see. Nodes without closed points become
+   * zero. Collective.
    */
   void add_fit(const std::vector<Value> &values, const std::vector<bool> &closed);
 
   /**
-   * The largest mean of a node, |int N_i v| / int N_i over the closed points; 0 if all are open.
-   * Collective.
+   * The largest mean of a node, |int N_i v| / int N_i over the closed points, of nodes near at
+   * least `smallest_part` of the face of a cell: what is less is moved by multipliers only slowly,
+   * and carries nothing. 0 if there are none. Collective.
    */
   double largest_mean(const std::vector<Value> &values, const std::vector<bool> &closed) const;
 
@@ -59,12 +63,14 @@ private:
   /** int N_i v over closed points, of all nodes and processes. */
   std::vector<Value> moments(const std::vector<Value> &values,
                              const std::vector<bool>  &closed) const;
-  /** int N_i^power over closed points, of power 1 or 2. */
-  std::vector<double> integrals(const unsigned int power, const std::vector<bool> &closed) const;
+  /** Of each node the sum of of_point(number, N_i) over closed points and all processes. */
+  template <typename Function>
+  std::vector<double> sums(const std::vector<bool> &closed, const Function &of_point) const;
 
   const MPI_Comm       communicator;
   std::vector<Support> supports; //!< of the points
   std::vector<double>  weights;  //!< of the points [area]
+  std::vector<double>  faces;    //!< of the cells of the points [area]
   std::vector<Value>   nodal;    //!< Lambda_i
 };
 } // namespace scree

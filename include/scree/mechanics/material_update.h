@@ -18,10 +18,10 @@ seed_points(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level
 
 /**
  * Sends points to the processes of their cells and divides those that are wide for them: of cells
- * finer than they were made for (collective).
+ * finer than they were made for (collective). @throws TornBody
  */
 template <int dim>
-void distribute_points(const DisplacementSpace<dim>   &space,
+void distribute_points(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                        const MovingGeometryParameters &parameters, MaterialPoints<dim> &points);
 
 /**

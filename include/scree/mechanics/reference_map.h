@@ -11,11 +11,12 @@
 namespace scree
 {
 /**
- * The active cell in or nearest to each material point; @throws ExcMessage if a point is farther
- * than a cell from all active cells of its body.
+ * The active cell in or nearest to each material point (collective); @throws TornBody if a point is
+ * farther than a cell from all active cells of its body.
  */
 template <int dim>
 std::vector<PointInCell<dim>> locate_points(const DisplacementSpace<dim> &space,
+                                            const std::vector<Body<dim>> &bodies,
                                             const MaterialPoints<dim>    &points);
 
 /**
