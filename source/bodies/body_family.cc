@@ -65,8 +65,9 @@ members_of(const FamilyKind<dim> &family, const ParameterSection &section,
       section.error(family.section, error.what());
       members.clear();
     }
-  if (members.empty())
-    members.push_back({member_name(0), nullptr});
+  if (members.empty()) // two, which contact laws between members find
+    for (const unsigned int number : {0, 1})
+      members.push_back({member_name(number), nullptr});
   return members;
 }
 } // namespace
