@@ -52,7 +52,8 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
              const std::vector<PointHistory<dim>> &histories, const std::vector<Body<dim>> &bodies,
              const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u)
 {
-  constexpr std::size_t               most    = 256; // points that a law is asked at once
+  constexpr std::size_t               most = 256; // points that a law is asked at once
+  const dealii::Tensor<2, dim>        identity(dealii::unit_symmetric_tensor<dim>());
   MaterialPoints<dim>                 points  = old_points;
   const auto                         &volumes = bulk.cell_volumes(u);
   std::vector<dealii::Tensor<1, dim>> increments(points.size());
@@ -71,13 +72,14 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
           const PointInCell<dim> &place = places[p];
           const auto              here  = u.evaluate(place);
           increments[p]                 = here.value;
-          gradients[p]                  = here.gradient;
           starts[n]                     = law.start(histories[p]);
-          F_D[n]                        = gradients[p];
-          for (unsigned int d = 0; d < dim; ++d)
-            F_D[n][d][d] += 1.;
+
           F_D[n] = bulk.volume_projection().projected_increment(
-            place.active_cell, place.unit_point, volumes[place.active_cell], F_D[n], starts[n]);
+            place.active_cell, place.unit_point, volumes[place.active_cell],
+            here.gradient + identity, starts[n]);
+          if (!(determinant(F_D[n]) > 0.))
+            F_D[n] = identity;              // turned inside out, or NaN: the point keeps its state
+          gradients[p] = F_D[n] - identity; // the volume change that the stress belongs to
         }
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(F_D.data(), n),
                   dealii::ArrayView<const IncrementStart>(starts.data(), n),

@@ -286,7 +286,9 @@ StepStart<dim>::require_admissible(const PointInCell<dim>       &point,
                   "its displacement at the start of the step turns the material at "
                     + short_place(x) + " inside out: det F = " + short_number(determinant(F)),
                   "use more steps or finer cells; where a prescribed displacement ends at a sharp "
-                  "edge, let it end smoothly or load the body by tractions");
+                  "edge, let it end smoothly or load the body by tractions; where material flows "
+                  "apart, as in cutting, set Moving geometry/Deformation gradient = moving least "
+                  "squares and Level set motion = semi-Lagrangian");
 }
 
 template <int dim>
@@ -295,7 +297,7 @@ StepStart<dim>::deformation_gradients(const std::vector<PointInCell<dim>> &point
                                       const std::optional<PointWeights>   &of_cloud) const
 {
   if (gradients_are_of_cloud())
-    return of_cloud->values(cloud.deformation_gradient);
+    return interpolated_gradients(*of_cloud, cloud.deformation_gradient);
   std::vector<dealii::Tensor<2, dim>> result;
   result.reserve(points.size());
   for (const auto &point : points)

@@ -414,6 +414,37 @@ PointWeights::values(const std::vector<double> &field, const unsigned int n) con
   return result;
 }
 
+template <int dim>
+std::vector<Tensor<2, dim>>
+interpolated_gradients(const PointWeights &weights, const std::vector<Tensor<2, dim>> &of_points)
+{
+  constexpr double largest_ratio = 4.;
+  auto             result        = weights.values(of_points);
+  for (std::size_t t = 0; t < result.size(); ++t)
+    {
+      const std::size_t begin = weights.begin[t], end = weights.begin[t + 1];
+      if (begin == end)
+        continue;
+      double volume_ratio = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+        volume_ratio += weights.weights[i] * determinant(of_points[weights.points[i]]);
+      const double ratio = volume_ratio / determinant(result[t]);
+      if (volume_ratio > 0. && ratio > 0. && ratio <= largest_ratio)
+        result[t] *= std::pow(ratio, 1. / dim);
+      else
+        {
+          const auto first = weights.weights.begin();
+          result[t]
+            = of_points[weights.points[std::max_element(first + begin, first + end) - first]];
+        }
+    }
+  return result;
+}
+
+template std::vector<Tensor<2, 2>> interpolated_gradients(const PointWeights &,
+                                                          const std::vector<Tensor<2, 2>> &);
+template std::vector<Tensor<2, 3>> interpolated_gradients(const PointWeights &,
+                                                          const std::vector<Tensor<2, 3>> &);
 template class MovingLeastSquares<2>;
 template class MovingLeastSquares<3>;
 } // namespace scree

@@ -57,11 +57,10 @@ transfer_state(MaterialPoints<dim> &points, const MaterialPoints<dim> &old, cons
   const unsigned int     n          = points.n_internal();
   const auto             internal   = weights.values(old.internal, n);
   std::copy(internal.begin(), internal.end(), points.internal.begin() + first * n);
+  const auto gradients = interpolated_gradients(weights, old.deformation_gradient);
+  std::copy(gradients.begin(), gradients.end(), points.deformation_gradient.begin() + first);
   for (std::size_t c = 0; c < weights.n_targets(); ++c)
-    {
-      points.deformation_gradient[first + c] = weights.value(old.deformation_gradient, c);
-      points.stress[first + c]               = weights.value(old.stress, c);
-    }
+    points.stress[first + c] = weights.value(old.stress, c);
   for (std::size_t c = 0; c < weights.n_targets(); c += n_children)
     {
       Tensor<1, dim> mean;

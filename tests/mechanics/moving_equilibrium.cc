@@ -235,6 +235,33 @@ TEST(MovingEquilibrium, RotatedBodyIsFreeOfStress)
     }
 }
 
+TEST(MovingEquilibrium, PointsCarryTheProjectedVolume)
+{
+  // What flows has one change of volume in a cell of degree 1, though det(I + grad u) varies there.
+  StartedStep<2>      step(loaded_disc(1), "J2", [](const Point<2> &) { return Tensor<1, 2>(); });
+  const auto          u     = step.equilibrium.at_points(step.random(0.01, 1));
+  const auto          after = step.kinematics.moved(step.points, u);
+  const auto         &cells = step.start.material_points();
+  std::vector<double> ratio(step.cut.space->n_owned_cells(), 0.);
+  double              scatter = 0., plain = 0.;
+  for (std::size_t p = 0; p < after.size(); ++p)
+    {
+      const double found = determinant(after.deformation_gradient[p]);
+      Tensor<2, 2> F_D   = u.evaluate(cells[p]).gradient;
+      for (unsigned int d = 0; d < 2; ++d)
+        F_D[d][d] += 1.;
+      double &first = ratio[cells[p].active_cell];
+      if (first == 0.)
+        first = found;
+      scatter = std::max(scatter, std::abs(found - first));
+      plain   = std::max(plain, std::abs(determinant(F_D) - first));
+    }
+  std::cout << "det F scatters in the cells by " << scatter << ", det(I + grad u) by " << plain
+            << std::endl;
+  EXPECT_LT(scatter, 1e-12);
+  EXPECT_GT(plain, 1e-3);
+}
+
 TEST(MovingEquilibrium, SecondAttemptTurnsInfinitesimally)
 {
   StartedStep<2>  step(grid_text("-1.1, -1.1", "1.1, 1.1", "2, 2", 3) + degree_text(1)

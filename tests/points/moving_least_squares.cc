@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <ctime>
 #include <iostream>
 
@@ -244,6 +246,63 @@ TEST(MovingLeastSquares, independent_of_units_and_position)
   const auto a = weights.values(field), b = scaled.values(field);
   for (std::size_t t = 0; t < a.size(); ++t)
     EXPECT_NEAR(a[t], b[t], 1e-10);
+}
+
+// Isochoric gradients that vary much from point to point, a shear that grows and turns: det of the
+// interpolated gradient is far from one, that of interpolated_gradients() is one.
+template <int dim>
+void
+check_volume_ratios()
+{
+  const auto                  cloud   = make_cloud<dim>(8, Placement::irregular, 1);
+  const auto                  targets = make_targets<dim>(5, Placement::irregular, 0.25);
+  std::vector<Tensor<2, dim>> field;
+  for (const Point<dim> &x : cloud.position)
+    {
+      Tensor<2, dim> shear(unit_symmetric_tensor<dim>()), turn = shear;
+      shear[0][1] = 40. * x[1];
+      turn[0][0]  = std::cos(3. * x[0]);
+      turn[1][1]  = turn[0][0];
+      turn[0][1]  = -std::sin(3. * x[0]);
+      turn[1][0]  = -turn[0][1];
+      field.push_back(turn * shear);
+    }
+  const auto weights = MovingLeastSquares<dim>(cloud.position, cloud.body, cloud.spacing, {1, 1.75})
+                         .weights(targets);
+  const auto plain = weights.values(field), scaled = interpolated_gradients(weights, field);
+  double     error = 0.;
+  for (std::size_t t = 0; t < plain.size(); ++t)
+    {
+      error = std::max(error, std::abs(determinant(plain[t]) - 1.));
+      EXPECT_NEAR(determinant(scaled[t]), 1., 1e-10);
+    }
+  EXPECT_GT(error, 0.5);
+}
+
+TEST(InterpolatedGradients, VolumeRatio)
+{
+  check_volume_ratios<2>();
+  check_volume_ratios<3>();
+}
+
+// The mean of two opposite shears turns material inside out: the point with the larger weight
+// counts. A target without points stays at zero.
+TEST(InterpolatedGradients, InsideOut)
+{
+  std::vector<Tensor<2, 2>> field(2, Tensor<2, 2>(unit_symmetric_tensor<2>()));
+  field[0][0][1] = 10.;
+  field[1][1][0] = 10.; // det of the last mean: 1 - 0.99 x 0.01 x 100 = 0.01
+  PointWeights weights;
+  weights.begin   = {0, 2, 4, 4, 6};
+  weights.points  = {0, 1, 0, 1, 0, 1};
+  weights.weights = {0.4, 0.6, 1., 0., 0.99, 0.01};
+  EXPECT_LT(determinant(weights.value(field, 0)), 0.);
+  const auto result = interpolated_gradients(weights, field);
+  EXPECT_EQ(result[0], field[1]);
+  EXPECT_NEAR((result[1] - field[0]).norm(), 0., 1e-14);
+  EXPECT_EQ(result[2].norm(), 0.);
+  EXPECT_GT(determinant(weights.value(field, 3)), 0.);
+  EXPECT_EQ(result[3], field[0]);
 }
 
 template <int dim>

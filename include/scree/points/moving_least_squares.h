@@ -75,6 +75,20 @@ struct PointWeights
 };
 
 /**
+ * Deformation gradients at the targets,
+ *
+ *     F = (J/det G)^(1/dim) G,    G = sum_i w_i F_i,    J = sum_i w_i det F_i:
+ *
+ * what F_i varies among the points changes det G by its square, which in a shear band is more than
+ * any elastic change of volume. Where det G < J/4, or J is not positive, opposite shears cancel and
+ * G tells nothing: F is that of the point with the largest weight.
+ */
+template <int dim>
+std::vector<dealii::Tensor<2, dim>>
+interpolated_gradients(const PointWeights                        &weights,
+                       const std::vector<dealii::Tensor<2, dim>> &of_points);
+
+/**
  * Moving least squares (Lancaster & Salkauskas 1981; ILS section 4.3) from the points of a body to
  * any target x: the polynomial q of the given degree that minimises
  *
