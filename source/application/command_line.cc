@@ -5,6 +5,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
 #include <scree/base/log.h>
+#include <scree/bodies/body_list.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
@@ -14,7 +15,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <set>
 #include <thread>
 
 #ifndef SCREE_REVISION
@@ -39,7 +39,7 @@ const char *const usage =
   scree --check FILE.prm [--set ...] [--output DIR]
       says what is wrong with the input and writes what was set up, computes nothing
   scree --list FAMILY FILE.prm [--set ...]
-      prints the bodies of a random packing as a table, which Family = list reads
+      prints the bodies of a family as a table, which Family = list reads
   scree --parameters [FILE.md]
       writes a description of all parameters
   scree --version
@@ -174,35 +174,6 @@ write_parameters(const ParameterFile &file, const std::string &directory)
           "check the output directory and the disk");
 }
 
-/** A family as the table that Family = list reads. */
-template <int dim>
-std::string
-list_of(const std::vector<BodyParameters<dim>> &bodies, const std::string &family)
-{
-  std::set<std::string> families;
-  std::string           names, rows;
-  for (const BodyParameters<dim> &body : bodies)
-    {
-      if (!body.family.empty())
-        families.insert(body.family);
-      if (body.family != family)
-        continue;
-      require(!body.list_row.empty(), "--list " + family, "no table can tell its shapes",
-              "the bodies of Family = packing can be listed");
-      names.clear();
-      for (const auto &[name, cell] : body.list_row)
-        {
-          rows += (names.empty() ? "" : ", ") + cell;
-          names += (names.empty() ? "" : ", ") + name;
-        }
-      rows += '\n';
-    }
-  require(!rows.empty(), "--list " + family, "there is no such family",
-          families.empty() ? "set Family = packing in the section of a body"
-                           : "one of: " + listed({families.begin(), families.end()}));
-  return names + '\n' + rows;
-}
-
 template <int dim>
 void
 run(ParameterFile &file, const Arguments &arguments, const std::string &directory,
@@ -216,7 +187,7 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   if (!arguments.listed.empty())
     {
-      const std::string table = list_of(parameters.bodies, arguments.listed);
+      const std::string table = list_of_family(parameters.bodies, arguments.listed);
       if (is_first)
         std::cout << table;
       return;

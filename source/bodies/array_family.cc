@@ -60,7 +60,7 @@ declare_array(const ParameterSection &section, const ShapeParameters<dim> &shape
                     "make at most " + std::to_string(most_members));
       return {};
     }
-  // All copies refer to one shape, made when the first is needed.
+  // All copies refer to one shape, made when the first is needed. Parts are in no list.
   const auto                     original = std::make_shared<std::shared_ptr<const Shape<dim>>>();
   std::vector<FamilyMember<dim>> members;
   for (std::size_t n = 0; n < n_copies; ++n)
@@ -74,12 +74,21 @@ declare_array(const ParameterSection &section, const ShapeParameters<dim> &shape
           rest /= p.counts[d];
         }
       translation[0] += rows % 2 * p.shift;
-      members.push_back({member_name(n + 1), [original, shape, translation]() -> ShapePointer<dim> {
+      auto copy = shape.parts.empty() ? std::make_shared<ShapeParameters<dim>>(shape) : nullptr;
+      if (copy)
+        {
+          copy->translation.resize(dim);
+          for (unsigned int d = 0; d < dim; ++d)
+            copy->translation[d] += translation[d];
+        }
+      members.push_back({member_name(n + 1),
+                         [original, shape, translation]() -> ShapePointer<dim> {
                            if (!*original)
                              *original = make_shape(shape);
                            return std::make_unique<MovedShape<dim>>(
                              *original, unit_symmetric_tensor<dim>(), Point<dim>(), translation);
-                         }});
+                         },
+                         "", copy});
     }
   return members;
 }

@@ -84,7 +84,7 @@ body_of(const BodyParameters<dim> &family, const FamilyMember<dim> &member)
   body.path += " (" + body.name + ")";
   body.shape_of_member = member.make_shape;
   body.family          = family.name;
-  body.list_row        = member.row;
+  body.listed_shape    = member.shape;
   if (!member.material.empty())
     body.material = member.material;
   return body;

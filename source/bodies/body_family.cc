@@ -24,6 +24,15 @@ member_name(const std::size_t number)
 }
 
 template <int dim>
+FamilyMember<dim>
+member_of_shape(const std::string &name, const ShapeParameters<dim> &shape,
+                const std::string &material)
+{
+  const auto shared = std::make_shared<const ShapeParameters<dim>>(shape);
+  return {name, [shared]() { return make_shape(*shared); }, material, shared};
+}
+
+template <int dim>
 const FamilyKind<dim> *
 declare_family_kind(const ParameterSection &section)
 {
@@ -88,10 +97,12 @@ declare_members(const ParameterSection &section, const FamilyKind<dim> *family,
   return family == nullptr ? std::nullopt : members;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                \
-  template const std::vector<FamilyKind<dim>> &registered_families();                         \
-  template const FamilyKind<dim>              *declare_family_kind(const ParameterSection &); \
-  template std::optional<std::vector<FamilyMember<dim>>> declare_members(                     \
+#define SCREE_INSTANTIATE(dim)                                                                       \
+  template const std::vector<FamilyKind<dim>> &registered_families();                                \
+  template FamilyMember<dim>      member_of_shape(const std::string &, const ShapeParameters<dim> &, \
+                                                  const std::string &);                              \
+  template const FamilyKind<dim> *declare_family_kind(const ParameterSection &);                     \
+  template std::optional<std::vector<FamilyMember<dim>>> declare_members(                            \
     const ParameterSection &, const FamilyKind<dim> *, const ShapeParameters<dim> &);
 
 SCREE_INSTANTIATE(2)

@@ -30,11 +30,32 @@ struct TextTable
   TextTable(const std::string &bytes, const std::string &name);
 };
 
+/** The cells of a row, between commas; in those in quotation marks commas may stand. */
+std::vector<std::string>
+split_cells(const std::string &line, const std::string &where)
+{
+  std::vector<std::string> cells(1);
+  bool                     is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (line[i] == '"')
+      is_quoted = !is_quoted;
+    else if (line[i] == ',' && !is_quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  require(!is_quoted, where, "a quotation mark is not closed", "close it, or remove it");
+  for (std::string &cell : cells)
+    cell = dealii::Utilities::trim(cell);
+  return cells;
+}
+
 TextTable::TextTable(const std::string &bytes, const std::string &name)
 {
   for (const auto &[line, where, number] : data_lines(checked_text(bytes, name), name))
     {
-      const std::vector<std::string> cells = split_list(line, ',');
+      const std::vector<std::string> cells = split_cells(line, where);
       if (columns.empty())
         columns = cells;
       else
@@ -107,8 +128,8 @@ member_of(const TextTable &table, const TextTable::Row &row, const std::string &
   const std::string name = cell(table, row, "Name");
   require(name.find_first_of("/=") == std::string::npos, where, "'" + name + "' cannot be a name",
           "use names without '/' and '='");
-  return {name.empty() ? member_name(number) : name, [shape]() { return make_shape(shape); },
-          cell(table, row, "Material")};
+  return member_of_shape(name.empty() ? member_name(number) : name, shape,
+                         cell(table, row, "Material"));
 }
 
 template <int dim>
@@ -120,8 +141,8 @@ declare_list(const ParameterSection &section, const ShapeParameters<dim> & /*sha
     section, "File", path, largest_list_file, "bodies",
     "Table (CSV), a body in each row. The first line names the columns: entries of "
     "section Shape, as Radius, numbers of coordinates one by one, as Centre x and "
-    "Centre y; Name (else bodies are numbered); Material; what follows # is not "
-    "read.");
+    "Centre y; Name (else bodies are numbered); Material. Cells with commas stand in quotation "
+    "marks, as \"0,0; 1,0; 1,1\" of Vertices; what follows # is not read.");
   section.entry("Type", type, "Type of the shapes, where there is no column Type.");
   std::vector<FamilyMember<dim>> members;
   if (bytes.empty())

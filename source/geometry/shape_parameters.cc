@@ -1,3 +1,4 @@
+#include <scree/base/log.h>
 #include <scree/geometry/moved_shape.h>
 #include <scree/geometry/shape_family.h>
 
@@ -283,6 +284,54 @@ ShapeParameters<dim>::declare(const ParameterSection &section, const std::string
   check_values(*this, section);
   if (const auto check = family_of<dim>(type).check; check != nullptr)
     check(*this, section);
+}
+
+template <int dim>
+ShapeParameters<dim>
+ShapeParameters<dim>::of_type(const std::string &type)
+{
+  ShapeParameters result;
+  result.type = type;
+  for (const ShapeEntry &entry : all_entries<dim>())
+    result.values[entry.key] = entry.unset;
+  return result;
+}
+
+template <int dim>
+std::vector<std::pair<std::string, std::string>>
+ShapeParameters<dim>::cells() const
+{
+  std::vector<std::pair<std::string, std::string>> cells = {{"Type", type}};
+  const auto add = [&](const std::string &key, const auto &content) {
+    using T = std::decay_t<decltype(content)>;
+    if constexpr (std::is_same_v<T, double>)
+      cells.emplace_back(key, exact_number(content));
+    else if constexpr (std::is_same_v<T, std::vector<double>>)
+      for (std::size_t d = 0; d < content.size(); ++d)
+        cells.emplace_back(key + " " + "xyz"[d], exact_number(content[d]));
+    else if constexpr (std::is_same_v<T, std::vector<Point<2>>>)
+      {
+        std::string text;
+        for (const Point<2> &x : content)
+          text += (text.empty() ? "" : "; ") + exact_number(x[0]) + ", " + exact_number(x[1]);
+        cells.emplace_back(key, text);
+      }
+    else if constexpr (std::is_same_v<T, bool>)
+      cells.emplace_back(key, "true");
+    else
+      cells.emplace_back(key, content);
+  };
+  for (const auto &[key, value] : values)
+    if (is_given(value))
+      std::visit([&, key = key](const auto &content) { add(key, content); }, value);
+  if (rotation_angle != 0.)
+    {
+      add("Rotation angle", rotation_angle);
+      add("Rotation centre", rotation_centre);
+      add("Rotation axis", rotation_axis);
+    }
+  add("Translation", translation);
+  return cells;
 }
 
 template <int dim>

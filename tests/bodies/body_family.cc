@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
-#include <scree/bodies/body.h>
+#include <scree/bodies/body_list.h>
 #include <scree/level_set/binary_field.h>
 #include <scree/parameters/file.h>
 
@@ -252,6 +252,7 @@ TEST(ListFamily, WrongTablesAreExplained)
   expect_contains(told(columns + "1, 2, -3\n"), "wrong.csv, line 2, column:3");
   expect_contains(told(columns + "1, 2, -3\n"), "'Radius' must be greater than zero");
   expect_contains(told(columns + "1, b, 3\n"), "line 2, column:1");
+  expect_contains(told(columns + "\"1, 2, 3\n"), "a quotation mark is not closed");
   expect_contains(told("Centre x, Centre y, Radious\n1, 2, 3\n"), "did you mean 'Radius'");
   expect_contains(told("Radius, Radius\n1, 2\n"), "two columns are called 'Radius'");
   expect_contains(told("Name, Centre x, Centre y, Radius\na/b, 1, 2, 3\n"), "cannot be a name");
@@ -299,10 +300,108 @@ TEST(PackingFamily, MakesDiscs)
   const auto loose = parameters<2>(family("packing", "Packing", lines + "set Growth = 0.5\n"));
   EXPECT_NEAR(loose[0].shape_of_member()->bounding_box().side_length(0), 0.5 * box.side_length(0),
               1e-12);
+}
+
+TEST(PackingFamily, WrongEntriesAreExplained)
+{
+  const auto told = [](const std::string &lines) {
+    return message<2>(
+      family("packing", "Packing", "set Number = 10\nset Upper corner = 2, 1\n" + lines));
+  };
+  EXPECT_EQ(told("set Type = ellipse\nset Aspect ratio = 1.2, 1.8\n"), "");
   expect_contains(message<2>(family("packing", "Packing", "set Upper corner = 2, 1\n")),
                   "give a number of bodies");
   expect_contains(message<2>(family("packing", "Packing", "set Number = 10\n")),
                   "is not above Lower corner");
+  expect_contains(told("set Type = heart\n"), "regular polygon, random polygon");
+  expect_contains(told("set Type = ellipse\n"), "is needed by Type = ellipse");
+  expect_contains(told("set Type = ellipse\nset Aspect ratio = 1.8, 1.2\n"),
+                  "'Aspect ratio' is no number or range within 1 and 10");
+  expect_contains(told("set Type = ellipse\nset Aspect ratio = 11\n"), "within 1 and 10");
+  expect_contains(told("set Type = regular polygon\nset Corners = 2, 5\n"), "within 3 and 100");
+  expect_contains(told("set Aspect ratio = 1.5\n"), "'Aspect ratio' is not used by Type = disc");
+  expect_contains(told("set Exponent = 3\n"), "'Exponent' is not used by Type = disc");
+  expect_contains(told("set Corners = 5\n"), "'Corners' is not used by Type = disc");
+  expect_contains(told("set Rounding = 0.2\n"), "'Rounding' is not used by Type = disc");
+  expect_contains(told("set Container = cylinder\n"), "2 wide along x, 1 along y");
+  expect_contains(told("set Solid fraction = 0.95\n"), "is not reached: the bodies jam at 0.");
+  expect_contains(told("set Solid fraction = 0.5\nset Growth = 0.9\n"), "remove one of them");
+}
+
+/** The bodies of a family, and those of the list that is made of it. */
+template <int dim>
+void
+expect_same_list(const std::string &text)
+{
+  const auto          bodies = parameters<dim>(text);
+  const TemporaryFile file("listed.csv", list_of_family(bodies, "stone"));
+  const auto again = parameters<dim>(family("list", "List", "set File = " + file.name + "\n"));
+  EXPECT_EQ(names(again), names(bodies)) << text;
+  std::mt19937_64 random(5);
+  for (std::size_t i = 0; i < std::min(bodies.size(), again.size()); ++i)
+    {
+      EXPECT_EQ(again[i].material, bodies[i].material);
+      const auto shape = bodies[i].shape_of_member(), other = again[i].shape_of_member();
+      for (unsigned int k = 0; k < 20; ++k)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = 10. * (static_cast<double>(random() >> 11) * 0x1p-53) - 2.;
+          const double value = shape->signed_distance(x);
+          EXPECT_NEAR(other->signed_distance(x), value, 1e-12 * (1. + std::abs(value))) << text;
+        }
+    }
+  // The list of the list is the same table.
+  EXPECT_EQ(list_of_family(again, "stone"), list_of_family(bodies, "stone"));
+}
+
+TEST(BodyList, HasTheSameBodies)
+{
+  const std::string lines = "set Number = 7\nset Upper corner = 2, 2\nset Size ratio = 1.5\n";
+  for (const std::string type : {"disc\n", "disc\nset Container = cylinder\n",
+                                 "ellipse\nset Growth = 1.02\nset Aspect ratio = 1.2, 1.8\n",
+                                 "superellipse\nset Exponent = 4\nset Aspect ratio = 2\n",
+                                 "regular polygon\nset Corners = 5\n",
+                                 "random polygon\nset Corners = 3, 7\nset Rounding = 0.3\n"})
+    expect_same_list<2>(family("packing", "Packing", lines + "set Type = " + type));
+  const std::string in_space = "set Number = 7\nset Upper corner = 2, 2, 2\n";
+  for (const std::string type :
+       {"ball\n", "ellipsoid\nset Aspect ratio = 1.2, 1.8\nset Second aspect ratio = 1.5\n",
+        "superellipse\nset Exponent = 3\nset Container = cylinder\n"})
+    expect_same_list<3>(family("packing", "Packing", in_space + "set Type = " + type));
+  const std::string array = "set Counts = 3, 2\nset Spacing = 3, 2.7\nset Shift = 0.1\n";
+  for (const std::string shape :
+       {"set Centre = 0, 0.1\nset Radius = 0.5\nset Translation = 1, 1\n",
+        "set Type = ellipse\nset Centre = 0.1, 0.2\nset Semi-axes = 1, 0.7\nset Rotation angle = "
+        "30\n",
+        "set Type = polygon\nset Vertices = 0, 0; 1, 0.2; 0.3, 1\nset Corner radius = 0.05\n",
+        "set Type = expression\nset Expression = max(x^2 + y^2 - 1, y - 0.3)\n"
+        "set Rotation angle = 20\nset Rotation centre = 0.1, 0.3\n"})
+    expect_same_list<2>(family("array", "Array", array, "subsection Shape\n" + shape + "end\n"));
+}
+
+TEST(BodyList, HasMaterialsAndWhatIsMissing)
+{
+  const TemporaryFile file("stones.csv", "Name, Type, Centre x, Centre y, Radius, Semi-axes x, "
+                                         "Semi-axes y, Material\nbig, disc, 1, 2, 3, , , \n"
+                                         "\"a \"\"b\"\"\", ellipse, 1, 1, , 2, 1, hard\n");
+  const std::string   text = family("list", "List", "set File = " + file.name + "\n");
+  expect_same_list<2>(text);
+  EXPECT_EQ(list_of_family(parameters<2>(text), "stone"),
+            "Name, Material, Type, Centre x, Centre y, Radius, Semi-axes x, Semi-axes y\n"
+            "big, soft, disc, 1, 2, 3, , \n\"a \"\"b\"\"\", hard, ellipse, 1, 1, , 2, 1\n");
+}
+
+TEST(BodyList, WhatNoTableCanTellIsExplained)
+{
+  const std::string part = "set Radius = 1\nset Centre = 0, 0\n";
+  const auto        bodies
+    = parameters<2>(family("array", "Array", "set Counts = 2, 1\nset Spacing = 3, 3\n",
+                           "subsection Shape\nset Type = union\nset Parts = a, b\nsubsection a\n"
+                             + part + "end\nsubsection b\n" + part + "end\nend\n"));
+  expect_contains(complaint([&]() { list_of_family(bodies, "stone"); }),
+                  "no table can tell its shapes");
+  expect_contains(complaint([&]() { list_of_family(bodies, "stones"); }), "one of: stone");
 }
 
 TEST(BodyFamilies, EntriesThatDoNotGoTogetherAreExplained)

@@ -3,18 +3,15 @@
 #include <scree/geometry/shape_parameters.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace scree
 {
 /** A family has at most as many bodies: files of a few megabytes can hold more than is meant. */
 constexpr std::size_t most_members = 100000;
-
-/** Columns and cells of a row of the table that Family = list reads. */
-using ListRow = std::vector<std::pair<std::string, std::string>>;
 
 /** A body of a family. */
 template <int dim>
@@ -23,8 +20,14 @@ struct FamilyMember
   std::string                        name;          //!< what follows "family-", as 0017
   std::function<ShapePointer<dim>()> make_shape;    //!< may throw UserError
   std::string                        material = {}; //!< empty: that of the section
-  ListRow                            row      = {}; //!< empty: no list can tell the shape
+  /** What a section Shape says about it; null: none can. */
+  std::shared_ptr<const ShapeParameters<dim>> shape = nullptr;
 };
+
+/** The member whose shape `shape` describes. */
+template <int dim>
+FamilyMember<dim> member_of_shape(const std::string &name, const ShapeParameters<dim> &shape,
+                                  const std::string &material = "");
 
 /**
  * A way to make many bodies of one section of Bodies, by entry Family and a subsection of its own.

@@ -4,7 +4,7 @@
 
 namespace scree
 {
-/** A random packing of discs or balls in a box: pack_balls(). */
+/** A random packing of convex shapes in a box or a cylinder: pack_at_random(). */
 template <int dim>
 FamilyKind<dim> packing_family();
 } // namespace scree

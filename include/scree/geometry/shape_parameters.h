@@ -44,6 +44,15 @@ struct ShapeParameters
    */
   void declare(const ParameterSection &section, const std::string &instead = "");
 
+  /** Those of a type without any value: what makes shapes sets its entries. */
+  static ShapeParameters of_type(const std::string &type);
+
+  /**
+   * What was given, as columns and cells of a table: the type, the entries, rotation and
+   * translation; coordinates one by one, as "Centre x". Not the parts.
+   */
+  std::vector<std::pair<std::string, std::string>> cells() const;
+
   double                               number(const std::string &key) const;
   const std::vector<double>           &coordinates(const std::string &key) const;
   const std::vector<dealii::Point<2>> &vertices(const std::string &key) const;
