@@ -77,8 +77,6 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
           F_D[n] = bulk.volume_projection().projected_increment(
             place.active_cell, place.unit_point, volumes[place.active_cell],
             here.gradient + identity, starts[n]);
-          if (!(determinant(F_D[n]) > 0.))
-            F_D[n] = identity;              // turned inside out, or NaN: the point keeps its state
           gradients[p] = F_D[n] - identity; // the volume change that the stress belongs to
         }
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(F_D.data(), n),

@@ -15,19 +15,26 @@ std::string
 why_too_large(const DiscreteProblem<dim> &problem, const MaterialPoints<dim> &before,
               const MaterialPoints<dim> &after)
 {
-  const double                    h      = problem.grid.finest_size();
-  const MovingGeometryParameters &moving = problem.parameters.moving;
-  std::vector<double>             motions(problem.bodies.size(), 0.);
+  const double                    h        = problem.grid.finest_size();
+  const MovingGeometryParameters &moving   = problem.parameters.moving;
+  const unsigned int              n_bodies = problem.bodies.size();
+  std::vector<double>             motions(2 * n_bodies, 0.); // and whether points turn inside out
   for (std::size_t p = 0; p < before.size(); ++p)
     {
       double &largest = motions[before.body[p]];
       largest         = std::max(largest, after.position[p].distance(before.position[p]));
+      if (!(determinant(after.deformation_gradient[p]) > 0.)) // or it is not a number
+        motions[n_bodies + before.body[p]] = 1.;
     }
   dealii::Utilities::MPI::max(motions, problem.communicator(), motions);
-  for (unsigned int b = 0; b < motions.size(); ++b)
-    if (motions[b] > moving.largest_motion * h)
-      return "the body " + problem.bodies[b].name + " moves by " + short_number(motions[b] / h)
-             + " finest cells (Moving geometry/Largest motion)";
+  for (unsigned int b = 0; b < n_bodies; ++b)
+    {
+      if (motions[b] > moving.largest_motion * h)
+        return "the body " + problem.bodies[b].name + " moves by " + short_number(motions[b] / h)
+               + " finest cells (Moving geometry/Largest motion)";
+      if (motions[n_bodies + b] > 0.)
+        return "material points of the body " + problem.bodies[b].name + " are turned inside out";
+    }
   double slip = 0.;
   for (const auto &response : problem.contact().responses())
     slip = std::max(slip, response.slip);
