@@ -37,7 +37,8 @@ CutCellGauss<dim>::moved(const MaterialPoints<dim> &points, const IncrementalBul
   std::vector<PointHistory<dim>> histories;
   for (std::size_t p = 0; p < points.size(); ++p)
     histories.push_back(start.history_of_material_point(p));
-  return moved_points<dim>(points, start.material_points(), histories, this->bodies, bulk, u);
+  return moved_points<dim>(points, start.material_points(), histories, this->bodies, bulk, u,
+                           start.gradients_are_of_cloud());
 }
 
 template class CutCellGauss<2>;

@@ -69,7 +69,7 @@ MaterialPointQuadrature<dim>::moved(const MaterialPoints<dim>  &before,
   std::vector<PointHistory<dim>> histories;
   for (std::size_t p = 0; p < before.size(); ++p)
     histories.push_back(start.carried_history(p));
-  return moved_points<dim>(before, start.material_points(), histories, this->bodies, bulk, u);
+  return moved_points<dim>(before, start.material_points(), histories, this->bodies, bulk, u, true);
 }
 
 template class MaterialPointQuadrature<2>;

@@ -50,7 +50,8 @@ template <int dim>
 MaterialPoints<dim>
 moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCell<dim>> &places,
              const std::vector<PointHistory<dim>> &histories, const std::vector<Body<dim>> &bodies,
-             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u)
+             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u,
+             const bool laws_see_gradients)
 {
   constexpr std::size_t               most = 256; // points that a law is asked at once
   const dealii::Tensor<2, dim>        identity(dealii::unit_symmetric_tensor<dim>());
@@ -77,7 +78,7 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
           F_D[n] = bulk.volume_projection().projected_increment(
             place.active_cell, place.unit_point, volumes[place.active_cell],
             here.gradient + identity, starts[n]);
-          gradients[p] = F_D[n] - identity; // the volume change that the stress belongs to
+          gradients[p] = laws_see_gradients ? F_D[n] - identity : here.gradient;
         }
       law.respond(dealii::ArrayView<const dealii::Tensor<2, dim>>(F_D.data(), n),
                   dealii::ArrayView<const IncrementStart>(starts.data(), n),
@@ -106,7 +107,7 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
   template MaterialPoints<dim> moved_points(                                                      \
     const MaterialPoints<dim> &, const std::vector<PointInCell<dim>> &,                           \
     const std::vector<PointHistory<dim>> &, const std::vector<Body<dim>> &,                       \
-    const IncrementalBulk<dim> &, const PointEvaluator<dim> &);
+    const IncrementalBulk<dim> &, const PointEvaluator<dim> &, const bool);
 
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -148,8 +148,7 @@ StepStart<dim>::StepStart(const DisplacementSpace<dim> &space, const CutQuadratu
   Vector ghosted(space.owned(), space.relevant(), space.grid.communicator());
   ghosted = distributed;
   displacements.gather(ghosted);
-  if (points.n_internal() > 0
-      || parameters.deformation == DeformationTransfer::moving_least_squares)
+  if (points.n_internal() > 0 || gradients_are_of_cloud())
     {
       cloud = with_neighbours(space, parameters.support, own_points);
       moving_least_squares.emplace(scree::moving_least_squares(
@@ -333,9 +332,8 @@ PointHistory<dim>
 StepStart<dim>::history_of_material_point(const std::size_t point) const
 {
   PointHistory<dim> result;
-  result.deformation_gradient = parameters.deformation == DeformationTransfer::moving_least_squares
-                                  ? own_points.deformation_gradient[point]
-                                  : deformation(locations[point]).gradient;
+  result.deformation_gradient = gradients_are_of_cloud() ? own_points.deformation_gradient[point]
+                                                         : deformation(locations[point]).gradient;
   if (own_points.n_internal() > 0)
     set_internal(locations[point], &own_points.internal[point * n_internal], result);
   return result;

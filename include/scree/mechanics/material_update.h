@@ -31,10 +31,13 @@ void distribute_points(const DisplacementSpace<dim> &space, const std::vector<Bo
  * @param points    those at the start of the step
  * @param places    where they are in their cells
  * @param histories of the points at the start, as their laws see them
+ * @param laws_see_gradients whether laws see the F of the points, which then take the volume change
+ *                  that their law saw; else they take that of u, which is right where they are
  */
 template <int dim>
 MaterialPoints<dim>
 moved_points(const MaterialPoints<dim> &points, const std::vector<PointInCell<dim>> &places,
              const std::vector<PointHistory<dim>> &histories, const std::vector<Body<dim>> &bodies,
-             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u);
+             const IncrementalBulk<dim> &bulk, const PointEvaluator<dim> &u,
+             const bool laws_see_gradients);
 } // namespace scree

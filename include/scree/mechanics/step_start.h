@@ -94,17 +94,19 @@ public:
   /** Whether some law needs them. */
   static bool needs_internal(const std::vector<Body<dim>> &bodies);
 
+  /** Whether F_n is that of the material points, not of the displacement since the start. */
+  bool gradients_are_of_cloud() const
+  {
+    return parameters.deformation == DeformationTransfer::moving_least_squares;
+  }
+
 private:
   void require_admissible(const PointInCell<dim> &point, const dealii::Tensor<2, dim> &F) const;
   PointWeights weights(const std::vector<PointInCell<dim>> &targets) const;
   /** F_n; `of_cloud` are the weights of these points, empty if F_n is not from the cloud. */
   std::vector<dealii::Tensor<2, dim>>
-       deformation_gradients(const std::vector<PointInCell<dim>> &points,
-                             const std::optional<PointWeights>   &of_cloud) const;
-  bool gradients_are_of_cloud() const
-  {
-    return parameters.deformation == DeformationTransfer::moving_least_squares;
-  }
+  deformation_gradients(const std::vector<PointInCell<dim>> &points,
+                        const std::optional<PointWeights>   &of_cloud) const;
   /** Projects the volume changes of F_n in the cells of bodies that may flow, as Bulk does. */
   void find_volume_changes(const CutQuadrature<dim> &quadrature);
   /** The F_n that the law of such a body sees. */
