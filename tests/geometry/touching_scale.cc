@@ -3,6 +3,8 @@
 #include <scree/geometry/random_shapes.h>
 #include <scree/geometry/touching_scale.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <cmath>
 
 namespace scree

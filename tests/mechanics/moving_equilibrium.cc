@@ -245,8 +245,8 @@ TEST(MovingEquilibrium, PointsCarryTheProjectedVolume)
   std::vector<PointHistory<2>> histories;
   for (std::size_t p = 0; p < step.points.size(); ++p)
     histories.push_back(step.start.history_of_material_point(p));
-  const auto after
-    = moved_points<2>(step.points, cells, histories, step.cut.bodies, step.bulk, u, true);
+  const auto &bulk = dynamic_cast<const IncrementalBulk<2> &>(step.bulk);
+  const auto after = moved_points<2>(step.points, cells, histories, step.cut.bodies, bulk, u, true);
   std::vector<double> ratio(step.cut.space->n_owned_cells(), 0.);
   double              scatter = 0., plain = 0.;
   for (std::size_t p = 0; p < after.size(); ++p)
