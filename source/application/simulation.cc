@@ -179,6 +179,7 @@ Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
   report.step(attempt.record, model.problem().contact(), communicator, done,
               wall_time * (1. - done) / (done - fraction_at_restart));
   report.under_resolved(model.problem());
+  report.energies(model.problem().equilibrium().energies(), step_control.time());
   if (model.is_moving())
     {
       const auto motion = model.move_geometry(std::move(attempt.points), step_control.step_size());

@@ -278,6 +278,22 @@ RunReport<dim>::nothing_touched(const DiscreteProblem<dim> &problem)
 
 template <int dim>
 void
+RunReport<dim>::energies(const Energies &energies, const double time)
+{
+  largest_work      = std::max(largest_work, std::abs(energies.external_work));
+  const double gain = -energies.balance_error();
+  if (has_gained || energies.kinetic == 0. || gain <= 0.5 * largest_work)
+    return;
+  has_gained = true;
+  run_log.log.line(
+    "Warning: at time " + short_number(time) + " there is " + short_number(gain)
+    + " more energy than came in (" + short_number(energies.external_work)
+    + "): the scheme does not follow what is much faster than a step; take shorter steps, or "
+      "Time/Scheme = backward Euler, which damps it");
+}
+
+template <int dim>
+void
 RunReport<dim>::end(const DiscreteProblem<dim> &problem, const unsigned int n_rejected,
                     const unsigned int n_checkpoints, const std::size_t checkpoint_bytes,
                     const std::string &directory)

@@ -43,6 +43,12 @@ public:
   void meetings(const DiscreteProblem<dim> &problem, const ContactParameters &parameters,
                 const typename Equilibrium<dim>::Vector &u);
 
+  /**
+   * Warns once of a motion that has got energy from nowhere, more than half of the largest work of
+   * the loads so far.
+   */
+  void energies(const Energies &energies, const double time);
+
   void failure(const StepRecord &record, const NewtonResult &result,
                const ContactPoints<dim> &contact, const StatusChanges &changes,
                const MPI_Comm communicator);
@@ -59,7 +65,9 @@ private:
   void nothing_touched(const DiscreteProblem<dim> &problem);
 
   RunLog &run_log;
-  bool    has_touched = false; //!< any pair in any step
+  bool    has_touched  = false; //!< any pair in any step
+  double  largest_work = 0.;    //!< of the loads up to a step, with the kinetic energy at the start
+  bool    has_gained   = false; //!< energy from nowhere
 };
 
 /** Makes pictures of a directory of results by contrib/plot, where it is installed. */
