@@ -191,9 +191,8 @@ def draw_pair_3d(panel, table, run):
     low, high = points[is_closed].min(axis=0), points[is_closed].max(axis=0)
     # Contact at a point or two is seen with the points around it.
     margin = max(0.15 * (high - low).max(), 2.0 * cell)
-    box = [np.array([float(v) for v in run.parameters.get(f"Grid/{corner} corner", f"{end},{end},{end}").split(",")])[kept]
-           for corner, end in (("Lower", "-inf"), ("Upper", "inf"))]
-    low, high = np.maximum(low - margin, box[0]), np.minimum(high + margin, box[1])
+    lower, upper = run.box
+    low, high = np.maximum(low - margin, lower[kept]), np.minimum(high + margin, upper[kept])
     seen = normals @ mean > 0.2 * np.linalg.norm(mean)
     near = ((points > low - 2.0 * cell) & (points < high + 2.0 * cell)).all(axis=1) & seen
     image, extent = smoothed(points[near], table["weight"][near], table["pressure"][near], cell, 0.5 * cell, low, high)

@@ -245,6 +245,12 @@ class RunResults:
     def contact(self, step):
         return read_table(self.contact_files[step][0])
 
+    @property
+    def box(self):
+        """Lower and upper corner of the grid; infinite where the parameters do not tell."""
+        return [np.array([float(v) for v in self.parameters.get(f"Grid/{corner} corner", f"{end},{end},{end}").split(",")])
+                for corner, end in (("Lower", "-inf"), ("Upper", "inf"))]
+
     def regions(self):
         """The points of conditions on cut surfaces; empty without any."""
         file = self.directory / "regions.csv"

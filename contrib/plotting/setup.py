@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 from .bodies import body_colour, outline, section_plane
 from .results import BodyMesh
 from .style import COLOURS, RIGID, figure_for, save, short
-from .surface import CELL_EDGE, draw_section, draw_surface, surface_triangles
+from .surface import CELL_EDGE, draw_section, draw_surface
 
 SHADES = ["#f7f7f7", "#e6edf5", "#d2e0ee", "#bcd2e6", "#a6c3dd", "#8fb3d3"]  # of whole cells, the largest first
 CUT = "#f6dfb8"
@@ -44,9 +44,10 @@ def draw(run):
 def draw_3d(run, mesh):
     """The bodies' surfaces in their colours with the cells and where conditions act, and a section with the sizes of the cells."""
     n_bodies, conditions = mesh.body.max() + 1, list(conditions_of(run, mesh))
-    triangles = surface_triangles(mesh)
-    marks = [(points, condition.colour) for condition in conditions
-             for points in condition.places(run, mesh, mesh.points[triangles].mean(axis=1), mesh.body[triangles[:, 0]])]
+
+    def marks(centres, bodies):
+        return [(points, condition.colour) for condition in conditions for points in condition.places(run, mesh, centres, bodies)]
+
     cells, level, largest = whole_cells(mesh)
     cmap = ListedColormap([body_colour(number) for number in range(n_bodies)])
     figure, axes, _ = draw_surface(mesh, mesh.points, mesh.fields["body"], (-0.5, n_bodies - 0.5), cmap=cmap, cells=cells, marks=marks,
@@ -143,8 +144,8 @@ class Condition:
     def on_plane(self, run, place, mesh, centres, bodies):
         """Which parts of the outline (their centres and bodies) lie on a face of the grid, as x- or z+."""
         axis = "xyz".index(place[0])
-        corner = run.parameters.get(f"Grid/{'Upper' if place[1] == '+' else 'Lower'} corner", "nan,nan,nan").split(",")
-        return np.isin(bodies, self.own) & (np.abs(centres[:, axis] - float(corner[axis])) < 1e-6 * mesh.size)
+        plane = run.box[place[1] == "+"][axis]
+        return np.isin(bodies, self.own) & (np.abs(centres[:, axis] - plane) < 1e-6 * mesh.size)
 
     def on_surface(self, run, place):
         """The points of regions.csv (n, dim)."""

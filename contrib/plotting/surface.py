@@ -147,10 +147,10 @@ def section_triangles(mesh, axis, position):
     return pairs, share
 
 
-def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis", cells=None, marks=(), extra=1.2):
+def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viridis", cells=None, marks=None, extra=1.2):
     """The surface, grey where points are not `shown`, in a window for what is in `box` (low and high corner), seen from above the
-    corner between x and -y; edges of `cells` (a number for each point, below 0: none), and `marks`: pairs of points on the surface
-    (n, 3) and their colour; `extra` room beside it in inches. Figure, axes, and the colours for a bar."""
+    corner between x and -y; edges of `cells` (a number for each point, below 0: none), and what `marks` makes of the centres of the
+    triangles and their bodies: pairs of points on the surface (n, 3) and their colour; `extra` room beside it in inches. Figure, axes, and the colours for a bar."""
     view = View()
     triangles = surface_triangles(mesh)
     plane, nearness = view.project(deformed)
@@ -172,9 +172,9 @@ def draw_surface(mesh, deformed, values, scale, shown=None, box=None, cmap="viri
     image[raster.triangle < 0] = 0.0
     if cells is not None:
         image[raster.cell_edges(cells[triangles[:, 0]])] = to_rgba(CELL_EDGE)
-    for points, colour in marks:
-        plane, nearness = view.project(points)
-        axes.plot(*plane[raster.sees(plane, nearness)].T, "o", markersize=4, color=colour, alpha=0.6, zorder=3)
+    for points, colour in marks(mesh.points[triangles].mean(axis=1), mesh.body[triangles[:, 0]]) if marks else ():
+        places, depth = view.project(points)
+        axes.plot(*places[raster.sees(places, depth)].T, "o", markersize=4, color=colour, alpha=0.6, zorder=3)
     outlines = raster.outlines(mesh.body[triangles[:, 0]])
     if shown is not None and not shown.all() and shown.any():
         see_through(mesh, plane, nearness, triangles[shown[triangles[:, 0]]], raster, image, outlines, colours, values)

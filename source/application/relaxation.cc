@@ -48,36 +48,45 @@ Relaxation<dim>::move(const double drag)
 
 template <int dim>
 bool
-Relaxation<dim>::run()
+Relaxation<dim>::moves_to_rest()
 {
   constexpr double       first_drag = 0.1, smallest_drag = 1e-5, largest_drag = 10.;
   constexpr double       growth = 10., decay = 0.3;
   constexpr double       at_rest   = 0.05; // cells
   constexpr unsigned int max_moves = 30;
   const double           h         = model.problem().grid.finest_size();
-  before                           = model.state();
-  n_iterations                     = 0;
-  double drag                      = first_drag;
+  double                 drag      = first_drag;
   run_log.log.line("  where bodies go is sought against a drag, in up to "
                    + std::to_string(max_moves) + " moves");
+  for (unsigned int n_moves = 0; n_moves < max_moves && drag <= largest_drag;)
+    {
+      const auto motion = move(drag);
+      if (!motion)
+        {
+          drag *= growth;
+          continue;
+        }
+      ++n_moves;
+      drag *= decay;
+      if (*motion > at_rest * h && drag > smallest_drag)
+        continue;
+      run_log.log.line("  bodies go there against a drag, in " + std::to_string(n_moves)
+                       + " move(s) and " + std::to_string(n_iterations) + " iterations");
+      return true;
+    }
+  return false;
+}
+
+template <int dim>
+bool
+Relaxation<dim>::run()
+{
+  before       = model.state();
+  n_iterations = 0;
   try
     {
-      for (unsigned int n_moves = 0; n_moves < max_moves && drag <= largest_drag;)
-        {
-          const auto motion = move(drag);
-          if (!motion)
-            {
-              drag *= growth;
-              continue;
-            }
-          ++n_moves;
-          drag *= decay;
-          if (*motion > at_rest * h && drag > smallest_drag)
-            continue;
-          run_log.log.line("  bodies go there against a drag, in " + std::to_string(n_moves)
-                           + " move(s) and " + std::to_string(n_iterations) + " iterations");
-          return true;
-        }
+      if (moves_to_rest())
+        return true;
     }
   catch (const TornBody &error)
     {

@@ -60,35 +60,35 @@ declare_array(const ParameterSection &section, const ShapeParameters<dim> &shape
                     "make at most " + std::to_string(most_members));
       return {};
     }
-  // All copies refer to one shape, made when the first is needed. Parts are in no list.
+  // All copies refer to one shape, made when the first is needed.
   const auto                     original = std::make_shared<std::shared_ptr<const Shape<dim>>>();
+  const auto                     of_one   = std::make_shared<const ShapeParameters<dim>>(shape);
   std::vector<FamilyMember<dim>> members;
   for (std::size_t n = 0; n < n_copies; ++n)
     {
+      std::size_t    rest = n, rows = n / p.counts[0];
       Tensor<1, dim> translation;
-      std::size_t    rest = n, rows = 0;
       for (unsigned int d = 0; d < dim; ++d)
         {
           translation[d] = rest % p.counts[d] * p.spacing[d];
-          rows += d > 0 ? rest % p.counts[d] : 0;
           rest /= p.counts[d];
         }
       translation[0] += rows % 2 * p.shift;
-      auto copy = shape.parts.empty() ? std::make_shared<ShapeParameters<dim>>(shape) : nullptr;
-      if (copy)
-        {
-          copy->translation.resize(dim);
+      members.push_back(
+        {member_name(n + 1), [original, of_one, translation]() -> ShapePointer<dim> {
+           if (!*original)
+             *original = make_shape(*of_one);
+           return std::make_unique<MovedShape<dim>>(*original, unit_symmetric_tensor<dim>(),
+                                                    Point<dim>(), translation);
+         }});
+      if (shape.parts.empty()) // parts are in no list
+        members.back().listed_shape = [of_one, translation]() {
+          ShapeParameters<dim> moved = *of_one;
+          moved.translation.resize(dim);
           for (unsigned int d = 0; d < dim; ++d)
-            copy->translation[d] += translation[d];
-        }
-      members.push_back({member_name(n + 1),
-                         [original, shape, translation]() -> ShapePointer<dim> {
-                           if (!*original)
-                             *original = make_shape(shape);
-                           return std::make_unique<MovedShape<dim>>(
-                             *original, unit_symmetric_tensor<dim>(), Point<dim>(), translation);
-                         },
-                         "", copy});
+            moved.translation[d] += translation[d];
+          return moved;
+        };
     }
   return members;
 }

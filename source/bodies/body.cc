@@ -84,7 +84,7 @@ body_of(const BodyParameters<dim> &family, const FamilyMember<dim> &member)
   body.path += " (" + body.name + ")";
   body.shape_of_member = member.make_shape;
   body.family          = family.name;
-  body.listed_shape    = member.shape;
+  body.listed_shape    = member.listed_shape;
   if (!member.material.empty())
     body.material = member.material;
   return body;

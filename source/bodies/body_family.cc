@@ -29,7 +29,8 @@ member_of_shape(const std::string &name, const ShapeParameters<dim> &shape,
                 const std::string &material)
 {
   const auto shared = std::make_shared<const ShapeParameters<dim>>(shape);
-  return {name, [shared]() { return make_shape(*shared); }, material, shared};
+  return {name, [shared]() { return make_shape(*shared); }, material,
+          [shared]() { return *shared; }};
 }
 
 template <int dim>

@@ -47,7 +47,7 @@ list_of_family(const std::vector<BodyParameters<dim>> &bodies, const std::string
       require(body.listed_shape != nullptr, "--list " + family, "no table can tell its shapes",
               "list a family of Family = packing, array or list; no union, intersection or "
               "difference of parts");
-      auto cells = body.listed_shape->cells();
+      auto cells = body.listed_shape().cells();
       cells.insert(cells.begin(),
                    {{"Name", body.name.substr(family.size() + 1)}, {"Material", body.material}});
       materials.insert(body.material);

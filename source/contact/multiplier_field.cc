@@ -60,8 +60,7 @@ MultiplierField<dim>::MultiplierField(const std::vector<ContactPoint<dim>> &poin
   for (unsigned int p = 0; p < points.size(); ++p)
     {
       const ContactPoint<dim> &point = points[p];
-      weights.push_back(point.weight);
-      faces.push_back(std::pow(point.cell_size, dim - 1));
+      weights.push_back(point.weight / std::pow(point.cell_size, dim - 1));
       if (point.is_node)
         {
           keys.insert(keys.end(), n_corners, key_of_own(point, rank, p));
@@ -210,12 +209,10 @@ MultiplierField<dim>::largest_mean(const std::vector<dealii::Tensor<1, dim>> &va
 {
   const auto area
     = sums(closed, [&](const unsigned int p, const double N) { return weights[p] * N; });
-  const auto part
-    = sums(closed, [&](const unsigned int p, const double N) { return weights[p] / faces[p] * N; });
   const auto moment = moments(values, closed);
   double     result = 0.;
   for (unsigned int i = 0; i < area.size(); ++i)
-    if (part[i] >= smallest_part)
+    if (area[i] >= smallest_part)
       result = std::max(result, moment[i].norm() / area[i]);
   return result;
 }

@@ -207,22 +207,21 @@ TEST(RandomPacking, IsDenseInSpace)
 // Few bodies: the fractions of so small cores scatter.
 TEST(RandomPacking, FillsACylinder)
 {
-  using Type    = RandomShapeType;
-  auto p        = packing<2>(40, Type::ellipsoid, 1.4, {2., 2.});
-  p.in_cylinder = true;
-  check_packing<2>("ellipses in a disc", p, 0.8, {0.82, 0.92});
-  p             = packing<2>(100, Type::ball, 1.4);
-  p.in_cylinder = true;
-  check_packing<2>("discs in a disc", p, 0.74, {0.75, 0.86});
-  p             = packing<2>(30, Type::regular_polygon, 1.4);
-  p.in_cylinder = true;
-  check_packing<2>("hexagons in a disc", p, 0.74, {0.78, 0.93});
-  auto q        = packing<3>(25, Type::ellipsoid, 1., {1.4, 1.4});
-  q.in_cylinder = true;
-  check_packing<3>("spheroids in a cylinder", q, 0.45, {0.45, 0.8});
-  q             = packing<3>(40, Type::ball, 1.3);
-  q.in_cylinder = true;
-  check_packing<3>("balls in a cylinder", q, 0.4, {0.4, 0.7});
+  using Type             = RandomShapeType;
+  const auto in_cylinder = [](auto parameters) {
+    parameters.in_cylinder = true;
+    return parameters;
+  };
+  check_packing<2>("ellipses in a disc",
+                   in_cylinder(packing<2>(40, Type::ellipsoid, 1.4, {2., 2.})), 0.8, {0.82, 0.92});
+  check_packing<2>("discs in a disc", in_cylinder(packing<2>(100, Type::ball, 1.4)), 0.74,
+                   {0.75, 0.86});
+  check_packing<2>("hexagons in a disc", in_cylinder(packing<2>(30, Type::regular_polygon, 1.4)),
+                   0.74, {0.78, 0.93});
+  check_packing<3>("spheroids in a cylinder",
+                   in_cylinder(packing<3>(25, Type::ellipsoid, 1., {1.4, 1.4})), 0.45, {0.45, 0.8});
+  check_packing<3>("balls in a cylinder", in_cylinder(packing<3>(40, Type::ball, 1.3)), 0.4,
+                   {0.4, 0.7});
   check_packing<2>("a disc", packing<2>(1, Type::ball, 1.), 0.78, {0.99, 1.01});
 }
 

@@ -54,6 +54,9 @@ public:
   void finish();
 
 private:
+  /** The moves; false: m or their number was not enough. @throws TornBody */
+  bool moves_to_rest();
+
   /** One move: the largest of a free body [L]; empty: it failed. */
   std::optional<double> move(const double drag);
 

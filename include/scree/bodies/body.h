@@ -29,10 +29,10 @@ struct BodyParameters
   /** Makes the shape of a body of a family; empty: `shape` tells it. */
   std::function<ShapePointer<dim>()> shape_of_member;
   std::string                        family; //!< that it belongs to, or empty
-  /** What section Shape says of a body of a family; null: none can. */
-  std::shared_ptr<const ShapeParameters<dim>> listed_shape;
-  std::string                                 body_force = dim == 2 ? "0; 0" : "0; 0; 0";
-  double                                      density    = 0.; //!< of the material [mass/L^dim]
+  /** Makes what section Shape says of a body of a family; empty: none can. */
+  std::function<ShapeParameters<dim>()> listed_shape;
+  std::string                           body_force = dim == 2 ? "0; 0" : "0; 0; 0";
+  double                                density    = 0.;       //!< of the material [mass/L^dim]
   std::string         gravity = dim == 2 ? "0; 0" : "0; 0; 0"; //!< of all bodies [L/time^2]
   std::string         initial_velocity = dim == 2 ? "0; 0" : "0; 0; 0";
   std::vector<double> initial_spin; //!< about its centre of mass [rad/time]; empty: none

@@ -3,7 +3,6 @@
 #include <scree/geometry/shape_parameters.h>
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +19,8 @@ struct FamilyMember
   std::string                        name;          //!< what follows "family-", as 0017
   std::function<ShapePointer<dim>()> make_shape;    //!< may throw UserError
   std::string                        material = {}; //!< empty: that of the section
-  /** What a section Shape says about it; null: none can. */
-  std::shared_ptr<const ShapeParameters<dim>> shape = nullptr;
+  /** Makes what a section Shape says about it; empty: none can. */
+  std::function<ShapeParameters<dim>()> listed_shape = {};
 };
 
 /** The member whose shape `shape` describes. */

@@ -69,8 +69,9 @@ private:
 
   const MPI_Comm       communicator;
   std::vector<Support> supports; //!< of the points
-  std::vector<double>  weights;  //!< of the points [area]
-  std::vector<double>  faces;    //!< of the cells of the points [area]
-  std::vector<Value>   nodal;    //!< Lambda_i
+  /** Of the points, over the area of the face of their cells, of which those of a node are alike.
+   */
+  std::vector<double> weights;
+  std::vector<Value>  nodal; //!< Lambda_i
 };
 } // namespace scree
