@@ -140,6 +140,8 @@ ImplicitStepper<dim>::attempt()
       report.failure(record, result, problem.contact(), status_changes, problem.communicator());
       return attempt;
     }
+  if (result.status == NewtonStatus::converged_at_standstill)
+    run_log.log.line("  Newton's method " + result.message);
   report.loose(problem, time);
   const auto balances = require_balance(problem, u, parameters.newton, time, run_log);
   if (model.is_moving())
@@ -278,6 +280,9 @@ ImplicitStepper<dim>::hooks()
   };
   hooks.is_geometric = [&](const Vector &r, const double tolerance) {
     return equilibrium.is_geometric(r, tolerance);
+  };
+  hooks.is_in_balance = [&](const Vector &u, const double residual) {
+    return is_in_balance(problem, u, residual, parameters.newton);
   };
   hooks.reference = [&]() {
     return std::max(equilibrium.force_scale(),

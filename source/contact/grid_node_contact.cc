@@ -47,10 +47,12 @@ class NodesInCells
 {
 public:
   NodesInCells(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
-               const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs)
+               const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+               const NodeNormal normal)
       : space(space)
       , level_set_nodes(level_set_nodes)
       , bodies(bodies)
+      , normal(normal)
       , rules(level_set_nodes.rules())
   {
     for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -60,21 +62,25 @@ public:
   NodesOfPairs<dim> collect();
 
 private:
-  /** What a cell has of a body: at its nodes int N_i n over the surface there. */
+  /** What a cell has of a body. */
   struct BodyInCell
   {
-    unsigned int                        body;
-    bool                                is_here;
-    std::vector<dealii::Tensor<1, dim>> gradients;
+    unsigned int    body;
+    bool            is_here;
+    CellPoints<dim> surface;
   };
 
+  using Gradients = std::array<dealii::Tensor<1, dim>, max_nodes_per_cell<dim>>;
+
   BodyInCell in_cell(const unsigned int c, const unsigned int body);
+  Gradients  gradients(const unsigned int c, const BodyInCell &here, const unsigned int other);
   void       add_nodes(const unsigned int c, const unsigned int pair, const BodyInCell &a,
                        const BodyInCell &b);
 
   const DisplacementSpace<dim>                                 &space;
   const LevelSetNodes<dim>                                     &level_set_nodes;
   const std::vector<Body<dim>>                                 &bodies;
+  const NodeNormal                                              normal;
   CutCellRules<dim>                                             rules;
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> numbers; //!< of the pairs
   NodesOfPairs<dim>                                             nodes;
@@ -85,17 +91,33 @@ typename NodesInCells<dim>::BodyInCell
 NodesInCells<dim>::in_cell(const unsigned int c, const unsigned int body)
 {
   const CellCut<dim> cut = level_set_nodes.cut(c, bodies[body]);
-  BodyInCell         result{body, cut.location != CellLocation::outside,
-                    std::vector<dealii::Tensor<1, dim>>(space.basis.n_nodes)};
-  if (cut.location != CellLocation::cut)
-    return result;
+  BodyInCell         result{body, cut.location != CellLocation::outside, {}};
+  if (cut.location == CellLocation::cut)
+    result.surface = rules.rules(cut, space.grid.cells()[c].size).surface;
+  return result;
+}
+
+/** At the nodes int N_i n over the surface in a cell, or over what of it faces the other body. */
+template <int dim>
+typename NodesInCells<dim>::Gradients
+NodesInCells<dim>::gradients(const unsigned int c, const BodyInCell &here, const unsigned int other)
+{
+  const GridCell<dim>                        &cell = space.grid.cells()[c];
+  Gradients                                   result;
   std::array<double, max_nodes_per_cell<dim>> shape;
-  const CellPoints<dim> surface = rules.rules(cut, space.grid.cells()[c].size).surface;
-  for (unsigned int q = 0; q < surface.points.size(); ++q)
+  for (unsigned int q = 0; q < here.surface.points.size(); ++q)
     {
-      space.basis.evaluate_values(surface.points[q], shape.data());
+      const dealii::Tensor<1, dim> &n      = here.surface.normals[q];
+      double                        weight = here.surface.weights[q];
+      if (normal == NodeNormal::facing_surfaces)
+        {
+          const dealii::Point<dim> x
+            = cell.lower + cell.size * dealii::Tensor<1, dim>(here.surface.points[q]);
+          weight *= std::max(0., -n * bodies[other].level_set.value_and_gradient(x, 1).second);
+        }
+      space.basis.evaluate_values(here.surface.points[q], shape.data());
       for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
-        result.gradients[i] += shape[i] * surface.weights[q] * surface.normals[q];
+        result[i] += shape[i] * weight * n;
     }
   return result;
 }
@@ -107,6 +129,7 @@ NodesInCells<dim>::add_nodes(const unsigned int c, const unsigned int pair, cons
 {
   const GridCell<dim>     &cell   = space.grid.cells()[c];
   const dealii::Point<dim> origin = space.grid.box().get_boundary_points().first;
+  const Gradients          of_a = gradients(c, a, b.body), of_b = gradients(c, b, a.body);
   for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
     {
       const dealii::Tensor<1, dim> arm
@@ -115,7 +138,7 @@ NodesInCells<dim>::add_nodes(const unsigned int c, const unsigned int pair, cons
       key[0] = pair;
       for (unsigned int d = 0; d < dim; ++d)
         key[1 + d] = std::llround(arm[d] / space.grid.finest_size());
-      nodes[key].add({cell.size, {{a.is_here, b.is_here}}, {{a.gradients[i], b.gradients[i]}}});
+      nodes[key].add({cell.size, {{a.is_here, b.is_here}}, {{of_a[i], of_b[i]}}});
     }
 }
 
@@ -188,13 +211,24 @@ std::array<double, 2>
 factors_of_normals(const ContactPair &pair, const std::vector<Body<dim>> &bodies,
                    const NodeNormal normal)
 {
-  if (normal == NodeNormal::volume_gradient)
+  if (normal != NodeNormal::mass_gradient)
     return {{1., 1.}};
   for (const unsigned int b : {pair.a, pair.b})
     require(bodies[b].density > 0., "Contact/Grid nodes/Normal",
             "the body '" + bodies[b].name + "' has no mass, whose gradient is asked for",
-            "set Density in the section of its material, or Normal = volume gradient");
+            "set Density in the section of its material, or Normal = facing surfaces");
   return {{bodies[pair.a].density, bodies[pair.b].density}};
+}
+
+/** The normal of a node [-, times a power of L and M]. */
+template <int dim>
+dealii::Tensor<1, dim>
+normal_of(const NodeOfPair<dim> &node, std::array<double, 2> factors, const NodeNormal normal)
+{
+  // At the end of a body the surface of the other one goes on, and has the right normal.
+  if (normal == NodeNormal::facing_surfaces)
+    factors = {{node.gradient[0].norm_square(), node.gradient[1].norm_square()}};
+  return factors[0] * node.gradient[0] - factors[1] * node.gradient[1];
 }
 
 /** The gap and the normal of a node where the bodies are expected at the end of a step. */
@@ -203,33 +237,37 @@ void
 expect_motion(const ContactPair &pair, const std::vector<Body<dim>> &bodies,
               const IncrementPrediction<dim> &prediction, ContactPoint<dim> &point)
 {
-  // Beyond this turn in a step the differences are noise at the end of a body.
+  // Beyond this angle the node is at the end of a body, whose distance says nothing of its face.
   constexpr double   smallest_cosine = 0.9;
   constexpr unsigned degree          = 3;
-  const auto         before          = [&](const unsigned int b, const dealii::Point<dim> &x) {
+  const auto         value           = [&](const unsigned int b, const dealii::Point<dim> &x) {
     return bodies[b].level_set.value(x, degree);
   };
-  const auto after = [&](const unsigned int b, const dealii::Point<dim> &x) {
-    return before(b, x - prediction(b, x));
-  };
-  const dealii::Point<dim> &x = point.position;
-  dealii::Tensor<1, dim>    n = point.normal;
-  for (unsigned int d = 0; d < dim; ++d)
-    {
-      dealii::Tensor<1, dim> arm;
-      arm[d] = 0.5 * point.cell_size;
+  const auto gradient = [&](const unsigned int b, const bool is_after) {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
       for (const double sign : {-1., 1.})
         {
-          const dealii::Point<dim> y = x + sign * arm;
-          n[d] += 0.5 * sign / point.cell_size
-                  * (after(pair.a, y) - before(pair.a, y) - after(pair.b, y) + before(pair.b, y));
+          dealii::Point<dim> y = point.position;
+          y[d] += sign * 0.5 * point.cell_size;
+          result[d] += sign / point.cell_size
+                       * value(b, is_after ? dealii::Point<dim>(y - prediction(b, y)) : y);
         }
+    return result;
+  };
+  dealii::Tensor<1, dim> n = point.normal;
+  for (const auto &[b, sign] : {std::pair(pair.a, 1.), std::pair(pair.b, -1.)})
+    {
+      const dealii::Tensor<1, dim> before = gradient(b, false), after = gradient(b, true);
+      const double cosine = std::min(sign * before * point.normal, sign * after * point.normal);
+      if (cosine > smallest_cosine)
+        n += 0.5 * sign * (after - before);
     }
   n /= n.norm();
-  if (!(n * point.normal > smallest_cosine))
-    return;
-  point.initial_gap
-    = after(pair.a, x) + after(pair.b, x) - n * (prediction(pair.b, x) - prediction(pair.a, x));
+  const auto moved  = [&](const unsigned int b) { return prediction(b, point.position); };
+  point.initial_gap = value(pair.a, point.position - moved(pair.a))
+                      + value(pair.b, point.position - moved(pair.b))
+                      - n * (moved(pair.b) - moved(pair.a));
   point.normal = n;
 }
 
@@ -249,13 +287,13 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
     factors.push_back(factors_of_normals(pair, bodies, normal_of_nodes));
   std::vector<ContactPoint<dim>> points;
   for (const auto &[key, node] : gathered<dim>(
-         NodesInCells<dim>(space, level_set_nodes, bodies, pairs).collect(), grid.communicator()))
+         NodesInCells<dim>(space, level_set_nodes, bodies, pairs, normal_of_nodes).collect(),
+         grid.communicator()))
     {
       const unsigned int number = key[0];
-      const auto         normal
-        = factors[number][0] * node.gradient[0] - factors[number][1] * node.gradient[1];
-      const double area = 0.5 * (node.gradient[0] - node.gradient[1]).norm();
-      const bool   is_seen
+      const auto         normal = normal_of(node, factors[number], normal_of_nodes);
+      const double       area   = 0.5 * (node.gradient[0] - node.gradient[1]).norm();
+      const bool         is_seen
         = area > negligible * std::pow(node.cell_size, dim - 1) && normal.norm() > 0.;
       if (!node.is_reached[0] || !node.is_reached[1] || !is_seen)
         continue;

@@ -4,7 +4,8 @@ namespace scree
 {
 namespace
 {
-const EnumNames<NodeNormal> node_normal_names = {{NodeNormal::volume_gradient, "volume gradient"},
+const EnumNames<NodeNormal> node_normal_names = {{NodeNormal::facing_surfaces, "facing surfaces"},
+                                                 {NodeNormal::volume_gradient, "volume gradient"},
                                                  {NodeNormal::mass_gradient, "mass gradient"}};
 } // namespace
 
@@ -20,8 +21,10 @@ GridNodeParameters::declare(ParameterSection &section)
   ParameterSection own
     = section.subsection("Grid nodes", "Contact at grid nodes (theory.md section 8).");
   own.entry("Normal", normal, node_normal_names,
-            "From the gradients of the nodal volumes of both bodies, or of their nodal masses, "
-            "which need Density.");
+            "facing surfaces: from the surfaces of both bodies near a node as far as they face the "
+            "other one; volume gradient: from the gradients of the nodal volumes, as in the "
+            "material point method, which lean at edges; mass gradient: from those of the nodal "
+            "masses, which need Density.");
   const std::string none = "none";
   has_gaps = own.choice("Early contact test", has_gaps ? surfaces : none, {surfaces, none},
                         "level sets: bodies touch where their distances to a node add up to zero; "

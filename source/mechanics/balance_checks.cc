@@ -92,6 +92,60 @@ throw_out_of_balance(const DiscreteProblem<dim> &problem, const BodyBalance<dim>
   throw UserError(body.path, what + cause, remedy);
 }
 
+/** What may be left of the forces and moments on a body. */
+template <int dim>
+class BalanceLimits
+{
+public:
+  BalanceLimits(const DiscreteProblem<dim> &problem, const std::vector<BodyBalance<dim>> &balances,
+                const NewtonParameters &newton)
+      : problem(problem)
+  {
+    // Of bodies without any forces: what moving the softest of them leaves by rounding.
+    double motion  = 2e-3 * problem.kinematics->position_scale();
+    double softest = std::numeric_limits<double>::max();
+    for (const BodyBalance<dim> &balance : balances)
+      {
+        motion  = std::max(motion, balance.largest_u);
+        softest = std::min(softest, problem.bodies[balance.body].material->young()
+                                      * std::pow(balance.radius, dim - 2));
+      }
+    of_motion                           = no_force * softest * motion;
+    const Equilibrium<dim> &equilibrium = problem.equilibrium();
+    const double            scale       = equilibrium.force_scale();
+    const auto [least, most]            = least_and_most_stiff(problem.bodies);
+    of_node                             = std::max(newton.relative_tolerance * scale,
+                                                   std::min(equilibrium.round_off(), round_off * scale));
+    if (scale <= no_forces * equilibrium.round_off() * least / most)
+      of_node = std::max(of_node, equilibrium.round_off());
+  }
+
+  bool allow_force(const BodyBalance<dim> &balance) const
+  {
+    return balance.force.norm() <= force(balance);
+  }
+
+  bool allow_moment(const BodyBalance<dim> &balance) const
+  {
+    const double held = problem.equilibrium().held_moment(balance.body);
+    return !problem.kinematics->balances_moments(problem.bodies[balance.body])
+           || balance.moment.norm()
+                <= 2. * balance.radius * (force(balance) + 2. * held)
+                     + 2. * problem.kinematics->arm_error(balance.largest_u) * balance.force_scale;
+  }
+
+private:
+  double force(const BodyBalance<dim> &balance) const
+  {
+    // Residuals of the nodes may all point the same way.
+    return largest_imbalance * balance.force_scale + std::sqrt(balance.n_nodes) * of_node
+           + of_motion;
+  }
+
+  const DiscreteProblem<dim> &problem;
+  double                      of_motion, of_node;
+};
+
 /** Angles of the rigid bodies, and the sums of their contact pressures times arms (collective). */
 template <int dim>
 void
@@ -135,46 +189,35 @@ std::vector<BodyBalance<dim>>
 require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
                 const NewtonParameters &newton, const double time, RunLog &run_log)
 {
-  const Equilibrium<dim> &equilibrium = problem.equilibrium();
-  const auto             &bodies      = problem.bodies;
-  const auto              balances    = equilibrium.balance(u);
-  // Of bodies without any forces: what moving the softest of them leaves by rounding.
-  double motion  = 2e-3 * problem.kinematics->position_scale();
-  double softest = std::numeric_limits<double>::max();
+  const auto               balances = problem.equilibrium().balance(u);
+  const BalanceLimits<dim> limits(problem, balances, newton);
   for (const BodyBalance<dim> &balance : balances)
     {
-      motion  = std::max(motion, balance.largest_u);
-      softest = std::min(softest, bodies[balance.body].material->young()
-                                    * std::pow(balance.radius, dim - 2));
-    }
-  const double scale       = equilibrium.force_scale();
-  double       tolerance   = std::max(newton.relative_tolerance * scale,
-                                      std::min(equilibrium.round_off(), round_off * scale));
-  const auto [least, most] = least_and_most_stiff(problem.bodies);
-  if (scale <= no_forces * equilibrium.round_off() * least / most)
-    tolerance = std::max(tolerance, equilibrium.round_off());
-  for (const BodyBalance<dim> &balance : balances)
-    {
-      const Body<dim> &body = bodies[balance.body];
-      // Residuals of the nodes may all point the same way.
-      const double allowed = largest_imbalance * balance.force_scale
-                             + std::sqrt(balance.n_nodes) * tolerance + no_force * softest * motion;
-      const double held = equilibrium.held_moment(balance.body);
-      const double allowed_moment
-        = 2. * balance.radius * (allowed + 2. * held)
-          + 2. * problem.kinematics->arm_error(balance.largest_u) * balance.force_scale;
-      const bool is_force = !(balance.force.norm() <= allowed);
+      const double held = problem.equilibrium().held_moment(balance.body);
       if (held > told_imbalance * balance.force_scale
           && run_log.warnings.is_new(Warning::badly_held, balance.body))
-        run_log.log.line("Warning: contact at few points holds the body " + body.name
-                         + " against turning only to "
+        run_log.log.line("Warning: contact at few points holds the body "
+                         + problem.bodies[balance.body].name + " against turning only to "
                          + short_number(100. * held / balance.force_scale)
                          + " % of what acts on it times half its size; refine the grid there");
-      const bool has_moments = problem.kinematics->balances_moments(body);
-      if (is_force || (has_moments && !(balance.moment.norm() <= allowed_moment)))
-        throw_out_of_balance(problem, balance, is_force, newton, time);
+      if (!limits.allow_force(balance) || !limits.allow_moment(balance))
+        throw_out_of_balance(problem, balance, !limits.allow_force(balance), newton, time);
     }
   return balances;
+}
+
+template <int dim>
+bool
+is_in_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
+              const double residual, const NewtonParameters &newton)
+{
+  if (!(residual <= round_off * problem.equilibrium().force_scale()))
+    return false;
+  const auto               balances = problem.equilibrium().balance(u);
+  const BalanceLimits<dim> limits(problem, balances, newton);
+  return std::all_of(balances.begin(), balances.end(), [&](const BodyBalance<dim> &balance) {
+    return limits.allow_force(balance) && limits.allow_moment(balance);
+  });
 }
 
 template <int dim>
@@ -255,6 +298,8 @@ warn_of_large_strains(const DiscreteProblem<dim>          &problem,
   template std::vector<BodyBalance<dim>> require_balance(                                          \
     const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &, const NewtonParameters &,      \
     const double, RunLog &);                                                                       \
+  template bool is_in_balance(const DiscreteProblem<dim> &, const Equilibrium<dim>::Vector &,      \
+                              const double, const NewtonParameters &);                             \
   template void require_small_rotations(const DiscreteProblem<dim> &,                              \
                                         const std::vector<BodyBalance<dim>> &, const State<dim> &, \
                                         const double);                                             \

@@ -76,6 +76,18 @@ is_plateau(const std::vector<double> &residuals)
          && residuals[n - 2] > 0.5 * residuals[n - 3];
 }
 
+/** Whether the residual stands at the least that it has reached, for many iterations. */
+bool
+is_standstill(const std::vector<double> &residuals)
+{
+  constexpr std::ptrdiff_t n_iterations = 8;
+  if (static_cast<std::ptrdiff_t>(residuals.size()) <= n_iterations)
+    return false;
+  const auto   last   = residuals.end() - n_iterations;
+  const double before = *std::min_element(residuals.begin(), last);
+  return *std::min_element(last, residuals.end()) > 0.5 * before && residuals.back() < 2. * before;
+}
+
 /** Whether the residual ceased to fall at the level of round-off, see the class documentation. */
 bool
 is_round_off(const NewtonIteration &iteration, const double norm_of_u)
@@ -361,6 +373,9 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
     return End{
       NewtonStatus::converged_at_round_off,
       "ended at the accuracy of the geometry in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  if (hooks.is_in_balance && is_standstill(residuals) && hooks.is_in_balance(u, residual))
+    return End{NewtonStatus::converged_at_standstill,
+               "stands still in balance after %u iterations, |r| = %.3e (tolerance %.3e)"};
   if (hooks.is_interrupted && hooks.is_interrupted())
     return End{NewtonStatus::interrupted,
                "interrupted after %u iterations, |r| = %.3e (tolerance %.3e)"};

@@ -316,6 +316,31 @@ TEST(Newton, WhatTheAccuracyOfTheGeometryLeavesIsAccepted)
   EXPECT_FALSE(answer(false).converged());
 }
 
+// A residual that turns from 1e-6 to -1.2e-6 and back: a contact that opens and closes.
+TEST(Newton, StandsStillInBalance)
+{
+  const auto f = [](double u) { return std::abs(u - 1) > 2e-6 ? u - 1 : u > 1 ? 1.2e-6 : -1e-6; };
+  Newton::Hooks hooks  = scalar(f, [](double) { return 1.; });
+  const auto    answer = [&](const bool is_in_balance) {
+    std::vector<double> asked;
+    hooks.is_in_balance = [&](const Vector &, const double residual) {
+      asked.push_back(residual);
+      return is_in_balance;
+    };
+    Vector             u      = vector({0.});
+    const NewtonResult result = Newton(with(LineSearch::none), hooks).solve(u);
+    for (const double residual : asked)
+      EXPECT_LE(residual, 1.2e-6);
+    return result;
+  };
+  const NewtonResult accepted = answer(true);
+  EXPECT_EQ(accepted.status, NewtonStatus::converged_at_standstill) << accepted.message;
+  EXPECT_TRUE(accepted.converged());
+  EXPECT_GE(accepted.iterations, 8u);
+  EXPECT_LE(accepted.iterations, 12u);
+  EXPECT_FALSE(answer(false).converged());
+}
+
 TEST(Newton, FailuresAreTold)
 {
   const auto one = [](double) { return 1.; };

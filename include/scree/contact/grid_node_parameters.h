@@ -8,6 +8,7 @@ namespace scree
 /** What makes the normals of contact at grid nodes. */
 enum class NodeNormal
 {
+  facing_surfaces,
   volume_gradient,
   mass_gradient
 };
@@ -16,7 +17,7 @@ enum class NodeNormal
 struct GridNodeParameters
 {
   bool       is_chosen = false;
-  NodeNormal normal    = NodeNormal::volume_gradient;
+  NodeNormal normal    = NodeNormal::facing_surfaces;
   /** Else bodies are in contact wherever both reach a node and approach each other. */
   bool has_gaps = true;
 

@@ -31,6 +31,17 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
                 const NewtonParameters &newton, const double time, RunLog &run_log);
 
 /**
+ * Whether require_balance() allows a state from which Newton's method does not get on: with a
+ * residual of at most 1e-6 of the forces, and every body in balance (collective).
+ *
+ * @param u of the last residual()
+ * @param residual its norm [force]
+ */
+template <int dim>
+bool is_in_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
+                   const double residual, const NewtonParameters &newton);
+
+/**
  * On a fixed geometry: that no body that only contact holds has turned by more than 0.8. Linear
  * kinematics lets one that tips over sink into what it stands on until something beside it bears.
  * Collective.

@@ -74,6 +74,7 @@ enum class NewtonStatus
 {
   converged,
   converged_at_round_off,
+  converged_at_standstill, //!< Hooks::is_in_balance
   max_iterations,
   diverged,
   linear_solver_failure,
@@ -96,7 +97,8 @@ struct NewtonResult
 
   bool converged() const
   {
-    return status == NewtonStatus::converged || status == NewtonStatus::converged_at_round_off;
+    return status == NewtonStatus::converged || status == NewtonStatus::converged_at_round_off
+           || status == NewtonStatus::converged_at_standstill;
   }
 };
 
@@ -112,7 +114,9 @@ struct NewtonResult
  * iteration. A residual that round-off keeps above the tolerance is accepted
  * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
  * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2; or if it did not
- * fall either and a hook says that only the accuracy of the geometry is left.
+ * fall either and a hook says that only the accuracy of the geometry is left; or if none of the
+ * last 8 iterations came below half of what was reached before, the last one stands within twice
+ * of it, and a hook says that all is in balance (converged_at_standstill).
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -179,6 +183,10 @@ public:
     /** Whether `r`, that of the last `residual`, which ceased to fall, is below the tolerance but
      * for what the accuracy of the geometry leaves. May be empty. */
     std::function<bool(const Vector &r, double tolerance)> is_geometric;
+
+    /** Whether u, that of the last `residual`, from which |r| does not fall any more, is one of
+     * balance for its user. May be empty. */
+    std::function<bool(const Vector &u, double residual)> is_in_balance;
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
     std::function<double()> reference;
