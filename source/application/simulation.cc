@@ -23,6 +23,7 @@ in_stage(const Parameters<dim> &input, const StageRecord<dim> &record)
   set_times(input.stages, record, result.time);
   set_motions(input.stages, record, result.bodies);
   set_friction(input.stages, record, result.contact);
+  result.time_scheme.is_static_stage = is_static(input.stages, record);
   return result;
 }
 } // namespace
@@ -222,7 +223,8 @@ Simulation<dim>::begin_next_stage()
   run_log.log.line("Stage " + stages.stage().name);
   parameters.bodies = input.bodies;
   set_motions(input.stages, stages.record(), parameters.bodies);
-  const double step_size = step_control.step_size();
+  parameters.time_scheme.is_static_stage = is_static(input.stages, stages.record());
+  const double step_size                 = step_control.step_size();
   model.begin_stage(set_friction(input.stages, stages.record(), parameters.contact), step_size);
   if (stages.stage().resets)
     run_log.log.line("  the bodies are reset: stored energy changes by "
@@ -260,7 +262,7 @@ Simulation<dim>::write_results(const StepRecord &record)
   if (is_due(parameters.output.fields_every, record))
     {
       std::optional<VelocityField<dim>> velocities;
-      if (problem.mass)
+      if (model.has_inertia())
         velocities.emplace(*problem.mass, u, model.state().predictor.rates.velocity);
       is_written &= results.write_fields(record, *problem.kinematics, ghosted,
                                          velocities ? &*velocities : nullptr);
@@ -282,9 +284,8 @@ void
 Simulation<dim>::write_points(const StepRecord &record)
 {
   const Timings::Scope scope(run_log.timings, "output");
-  warn_unless(
-    !is_due(parameters.output.points_every, record)
-    || results.write_points(record, model.state().points, model.problem().mass != nullptr));
+  warn_unless(!is_due(parameters.output.points_every, record)
+              || results.write_points(record, model.state().points, model.has_inertia()));
 }
 
 template <int dim>

@@ -246,6 +246,17 @@ declare_stages(ParameterSection &section, const std::vector<BodyParameters<dim>>
       if (stage.resets && result.empty())
         stage_section.error("Reset", "the first stage has nothing to reset",
                             "leave it out, or put a stage before it");
+      bool has_inertia = true;
+      stage_section.entry("Inertia", has_inertia,
+                          "false: the stage is quasi-static, whatever Time/Scheme is. Such stages "
+                          "come first; bodies have their Initial velocity when they are over.");
+      stage.is_static = !has_inertia;
+      if (stage.is_static && !result.empty() && !result.back().is_static)
+        stage_section.error("Inertia",
+                            "the stage '" + result.back().name
+                              + "' before it has inertia: bodies "
+                                "that move would stop",
+                            "put stages without inertia first");
       declare_friction(stage_section, contact, stage.friction);
       for (auto &[body_name, body_section] : stage_section.named(
              "Bodies", "Names of the rigid bodies whose motion or load changes in this stage; all "
@@ -316,6 +327,14 @@ is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string 
 
 template <int dim>
 bool
+is_static(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record)
+{
+  return !stages.empty()
+         && stages[std::min<std::size_t>(record.ends.size(), stages.size() - 1)].is_static;
+}
+
+template <int dim>
+bool
 set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
              ContactParameters &contact)
 {
@@ -340,6 +359,7 @@ set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<
   template void set_motions(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &,  \
                             std::vector<BodyParameters<dim>> &);                                  \
   template bool is_ever_free(const std::vector<StageParameters<dim>> &, const std::string &);     \
+  template bool is_static(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &);   \
   template bool set_friction(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &, \
                              ContactParameters &);
 INSTANTIATE(2)
