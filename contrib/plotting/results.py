@@ -73,7 +73,8 @@ class Units:
 class BodyMesh:
     """The pieces of the bodies in the order of the file: points (n, 3) where they are at the start of the run, arrays
     of triangles and quadrilaterals (2D) or tetrahedra and hexahedra (3D) with the kind of each cell, and the fields at
-    the points. The file says whether its points are those of the start or moved (FieldData points_are_moved)."""
+    the points. The file says whether its points are those of the start or moved (FieldData points_are_moved); file_points
+    are those of the file."""
 
     triangle, quadrilateral, tetrahedron, hexahedron = 5, 9, 10, 12
 
@@ -113,8 +114,9 @@ class BodyMesh:
         self.cells = {kind: np.concatenate(parts) for kind, parts in cells.items()}
         self.dim = 3 if any(kind in self.cells for kind in (self.tetrahedron, self.hexahedron)) else 2
         self.is_moved = bool(is_moved)
+        self.file_points = self.points
         if self.is_moved:
-            self.points -= self.displacement[:, :3]
+            self.points = self.points - self.displacement[:, :3]
         self.fields["displacement_magnitude"] = np.linalg.norm(self.displacement, axis=1)
         self.rigid_bodies = np.array([], dtype=int)
 
