@@ -1,6 +1,7 @@
 """The files that a run of scree leaves in its output directory."""
 import re
 from collections import defaultdict
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -238,7 +239,11 @@ class RunResults:
 
     def section_of(self, body):
         """The section in Bodies of a body: its own, or that of its family, of which FAMILY-0017 is one."""
-        return body if body in self.names("Bodies") else body.rpartition("-")[0]
+        return body if body in self.own_sections else body.rpartition("-")[0]
+
+    @cached_property
+    def own_sections(self):
+        return frozenset(self.names("Bodies"))
 
     def is_rigid(self, body):
         material = self.parameters.get(f"Bodies/{self.section_of(body)}/Material", "")
@@ -253,6 +258,7 @@ class RunResults:
         return [np.array([float(v) for v in self.parameters.get(f"Grid/{corner} corner", f"{end},{end},{end}").split(",")])
                 for corner, end in (("Lower", "-inf"), ("Upper", "inf"))]
 
+    @cached_property
     def regions(self):
         """The points of conditions on cut surfaces; empty without any."""
         file = self.directory / "regions.csv"
@@ -261,6 +267,14 @@ class RunResults:
     def history(self):
         """With the columns of pairs, wherever they are."""
         return with_pair_columns(self.directory, read_table(self.directory / "history.csv"))
+
+    @cached_property
+    def rows_of_regions(self):
+        """{(section of the body, condition): rows of the regions}."""
+        rows = defaultdict(list)
+        for row, key in enumerate(zip(self.regions.get("body", ()), self.regions.get("condition", ()))):
+            rows[self.section_of(key[0]), key[1]].append(row)
+        return rows
 
     def read_parameters(self):
         """The resolved parameters as {"Section/Subsection/Key": text}; those of a cycle are one directory up."""
