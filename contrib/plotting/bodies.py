@@ -61,6 +61,24 @@ def without_needles(points, body, edges, tolerance):
     return edges.ravel()[first][np.array(sorted(left), dtype=int).reshape(-1, 2)]
 
 
+def polylines(edges):
+    """The edges (n, 2), joined where they share a point: lists of points, closed ones with the first again at the end."""
+    neighbours = {}
+    for a, b in edges.tolist():
+        neighbours.setdefault(a, []).append(b)
+        neighbours.setdefault(b, []).append(a)
+    ends = [point for point, others in neighbours.items() if len(others) != 2]
+    lines = []
+    for start in ends + list(neighbours):
+        while neighbours[start]:
+            line = [start]
+            while neighbours[line[-1]] and (len(line) == 1 or line[-1] != start):
+                line.append(neighbours[line[-1]].pop())
+                neighbours[line[-1]].remove(line[-2])
+            lines.append(line)
+    return lines
+
+
 def suspects(places, edges):
     """Points where more than two edges meet, or two in a needle, and how narrow needles are there, in radians."""
     order = np.argsort(edges.ravel(), kind="stable")
@@ -292,7 +310,8 @@ def draw_2d(picture, scale, box):
     if coloured.any():
         colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], triangles[coloured]), picture.values,
                                  shading="gouraud", cmap="viridis", vmin=scale[0], vmax=scale[1], rasterized=True)
-    axes.add_collection(LineCollection(deformed[outline(mesh)], colors="black", linewidths=0.8, capstyle="round"))
+    lines = [deformed[line] for line in polylines(outline(mesh))]
+    axes.add_collection(LineCollection(lines, colors="black", linewidths=0.8, capstyle="round", joinstyle="round"))
     axes.set_xlabel(picture.run.units.label("x", "length"))
     axes.set_ylabel(picture.run.units.label("y", "length"))
     return figure, axes, colours
