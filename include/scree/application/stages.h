@@ -104,6 +104,11 @@ void set_motions(const std::vector<StageParameters<dim>> &stages, const StageRec
 template <int dim>
 bool is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body);
 
+/** @throws UserError if a checkpoint's record is not of a run through these stages */
+template <int dim>
+void require_record_of(const std::vector<StageParameters<dim>> &stages,
+                       const StageRecord<dim>                  &record);
+
 /** Friction as the stages that have begun have left it. @return whether it is not as it was */
 template <int dim>
 bool set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
