@@ -428,6 +428,13 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
                         + error.what(),
                       "start the run anew");
     }
+  const StepEnd<dim> &end = current.step_end;
+  require(end.multipliers.size() == BoundaryTerms<dim>::n_multipliers(current.bodies)
+            && std::all_of(end.driving.of_points.begin(), end.driving.of_points.end(),
+                           [n = problem().boundary_terms.regions().size()](const auto &point) {
+                             return point.region < n;
+                           }),
+          directory, "the checkpoint belongs to other boundary conditions", "start the run anew");
   start_step();
 }
 

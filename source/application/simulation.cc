@@ -2,6 +2,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
 #include <scree/output/region_output.h>
+#include <scree/state/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_out.h>
@@ -14,6 +15,8 @@ namespace scree
 {
 namespace
 {
+const std::string start_anew = "start it anew: there is no checkpoint";
+
 /** The parameters in the stage that a run has reached. */
 template <int dim>
 Parameters<dim>
@@ -302,7 +305,7 @@ Simulation<dim>::finish()
 {
   require(results.flush(), directory,
           "rows of history.csv or other tables could not be written to the last",
-          "make room on the disk and go on with scree --resume " + directory);
+          "make room on the disk and " + way_on());
   report.end(model.problem(), step_control.n_rejected(), saver.n_saved(), saver.bytes(), directory);
 }
 
@@ -366,12 +369,19 @@ Simulation<dim>::end_if_interrupted()
     {
       if (dealii::Utilities::MPI::broadcast(communicator, results.flush()))
         saver.save();
-      remedy = "go on with scree --resume " + directory;
+      remedy = way_on();
     }
   else
-    remedy = "start it anew: there is no checkpoint";
+    remedy = start_anew;
   run_log.log.line("The run was " + by + after + "; " + remedy);
   throw Interrupted{signal, by + after + "\n  remedy: " + remedy};
+}
+
+template <int dim>
+std::string
+Simulation<dim>::way_on() const
+{
+  return has_checkpoint(directory) ? "go on with scree --resume " + directory : start_anew;
 }
 
 template <int dim>

@@ -314,6 +314,30 @@ set_motions(const std::vector<StageParameters<dim>> &stages, const StageRecord<d
 }
 
 template <int dim>
+void
+require_record_of(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record)
+{
+  bool fits = record.ends.size() <= stages.size() && record.starts.size() <= stages.size()
+              && record.lengths.size() <= dim;
+  double time = 0.;
+  for (const double end : record.ends)
+    {
+      fits &= end > time && std::isfinite(end);
+      time = end;
+    }
+  for (unsigned int k = 1; fits && k < record.starts.size(); ++k)
+    for (const auto &[body, motion] : stages[k].bodies)
+      {
+        const auto start = record.starts[k].find(body);
+        fits &= start != record.starts[k].end()
+                && std::all_of(start->second.begin(), start->second.end(),
+                               [](const double value) { return std::isfinite(value); });
+      }
+  require(fits, "the checkpoint", "it does not belong to the stages of the run",
+          "start the run anew");
+}
+
+template <int dim>
 bool
 is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body)
 {
@@ -358,6 +382,8 @@ set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<
                           TimeParameters &);                                                      \
   template void set_motions(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &,  \
                             std::vector<BodyParameters<dim>> &);                                  \
+  template void require_record_of(const std::vector<StageParameters<dim>> &,                      \
+                                  const StageRecord<dim> &);                                      \
   template bool is_ever_free(const std::vector<StageParameters<dim>> &, const std::string &);     \
   template bool is_static(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &);   \
   template bool set_friction(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &, \

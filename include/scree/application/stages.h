@@ -110,6 +110,11 @@ bool is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::st
 template <int dim>
 bool is_static(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record);
 
+/** @throws UserError if a checkpoint's record is not of a run through these stages */
+template <int dim>
+void require_record_of(const std::vector<StageParameters<dim>> &stages,
+                       const StageRecord<dim>                  &record);
+
 /** Friction as the stages that have begun have left it. @return whether it is not as it was */
 template <int dim>
 bool set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record,
