@@ -28,7 +28,7 @@ struct Header
 };
 
 constexpr char          mark[16] = "scree restart\n\x1a";
-constexpr std::uint32_t format   = 9;
+constexpr std::uint32_t format   = 10;
 
 /** Why a file is no usable checkpoint. */
 struct Damage
