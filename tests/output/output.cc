@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
+#include <scree/base/log.h>
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "../mechanics/equilibrium_model.h"
 #include "files.h"
@@ -55,6 +57,17 @@ TEST(CsvTable, GoesOnAfterSomeRowsAndCutsTheRest)
   EXPECT_THROW(CsvTable(name, {"a", "b"}, 4), UserError); // half a row is none
   EXPECT_THROW(CsvTable(name, {"a", "c"}, 1), UserError);
   EXPECT_THROW(CsvTable(directory.path + "/none.csv", {"a"}, 0), UserError);
+}
+
+TEST(CsvTable, APipeInItsPlaceIsNotWaitedFor)
+{
+  const Directory   directory;
+  const std::string name = directory.path + "/table.csv";
+  ASSERT_EQ(mkfifo(name.c_str(), 0600), 0);
+  EXPECT_THROW(CsvTable(name, {"a"}), UserError);
+  EXPECT_THROW(CsvTable(name, {"a"}, 0), UserError);
+  EXPECT_THROW(Log(MPI_COMM_SELF, name), UserError);
+  EXPECT_THROW(Log(MPI_COMM_SELF, name, true), UserError);
 }
 
 TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)
