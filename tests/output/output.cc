@@ -7,6 +7,7 @@
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
 #include <scree/output/probes.h>
+#include <scree/output/result_files.h>
 
 #include <cmath>
 #include <csignal>
@@ -23,6 +24,28 @@ namespace scree
 namespace
 {
 using namespace dealii;
+
+TEST(ResultFiles, OfARunAreFoundAndThoseOfACheckAreNone)
+{
+  const Directory directory;
+  const auto      put
+    = [&](const std::string &name) { std::ofstream(directory.path + "/" + name) << "x"; };
+  for (const std::string name :
+       {"log.txt", "parameters.prm", "lock", "bodies_0000.vtu", "contact_0000.csv", "bodies.pvd",
+        "regions.csv", "grid.pvtu", "setup.png", "my_bodies_0001.vtu", "checkpoint.new"})
+    put(name);
+  EXPECT_EQ(result_file_in(directory.path), "");
+  for (const std::string name :
+       {"history.csv", "grains.csv", "study.csv", "cycle-0", "checkpoint.old", "bodies_0001.vtu",
+        "bodies_0010.0.vtu", "contact_0001.csv", "points_12345.pvtu", "chains_0002.vtp",
+        "line_a_b_0003.csv"})
+    {
+      put(name);
+      EXPECT_EQ(result_file_in(directory.path), name);
+      std::filesystem::remove(directory.path + "/" + name);
+    }
+  EXPECT_EQ(result_file_in(directory.path + "/nowhere"), "");
+}
 
 TEST(CsvTable, RowsAreWrittenAtOnce)
 {
