@@ -34,6 +34,13 @@ TEST(Expression, ComponentsOfPositionAndTime)
   EXPECT_EQ(Expression<3>("z", 1, "here").value(Point<3>(1., 2., 7.)), 7.);
 }
 
+TEST(Expression, EmptyComponentsAreTold)
+{
+  for (const std::string text : {"0;", "; 0", " ;0", "0; "})
+    expect_contains(complaint([&]() { Expression<2>(text, 2, "here"); }),
+                    "a component of '" + text + "' is empty");
+}
+
 TEST(TimeTable, IsLinearBetweenItsRows)
 {
   const TimeTable table("t, f\n0, 1 # start\n\n 0.5,\t2\n2,-1\n", "load.csv");
