@@ -5,7 +5,9 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
 #include <scree/base/log.h>
+#include <scree/base/text_file.h>
 #include <scree/bodies/body_list.h>
+#include <scree/output/result_files.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/revision.h>
@@ -59,12 +61,19 @@ struct Arguments
   bool                     check = false, parameters = false, version = false, help = false;
 };
 
+/** @throws UserError about the words of the command line unless they are `fine` */
+void
+require_words(const bool fine, const std::string &what)
+{
+  require(fine, "command line", what, "see scree --help");
+}
+
 Arguments
 parse(const int argc, char **argv)
 {
   Arguments  result;
   const auto value_of_option = [&](int &i) {
-    require(i + 1 < argc, "command line", std::string(argv[i]) + " needs a value", usage);
+    require_words(i + 1 < argc && argv[i + 1][0] != '\0', std::string(argv[i]) + " needs a value");
     return std::string(argv[++i]);
   };
   for (int i = 1; i < argc; ++i)
@@ -87,22 +96,25 @@ parse(const int argc, char **argv)
       else if (word == "--output")
         result.output = value_of_option(i);
       else if (word.rfind("--", 0) == 0)
-        throw UserError("command line", "unknown option '" + word + "'", usage);
+        require_words(false, "unknown option '" + word + "'");
       else
         {
-          require(result.file.empty(), "command line",
-                  "two files are given, '" + result.file + "' and '" + word + "'", usage);
+          require_words(result.file.empty(),
+                        "two files are given, '" + result.file + "' and '" + word + "'");
           result.file = word;
         }
     }
-  require(
+  if (result.help)
+    return result;
+  require_words(!result.version || argc == 2, "--version goes with nothing else");
+  require_words(!result.parameters || argc == (result.file.empty() ? 2 : 3),
+                "--parameters goes with the name of a file or alone");
+  require_words(
     result.resumed.empty() || (result.file.empty() && result.output.empty() && !result.check),
-    "command line",
-    "--resume takes the parameters of its directory and writes there: it goes with --set only",
-    usage);
-  require(result.help || result.version || result.parameters || !result.file.empty()
-            || !result.resumed.empty(),
-          "command line", "no parameter file is given", usage);
+    "--resume takes the parameters of its directory and writes there: it goes with --set only");
+  require_words(result.version || result.parameters || !result.file.empty()
+                  || !result.resumed.empty(),
+                "no parameter file is given");
   return result;
 }
 
@@ -150,13 +162,23 @@ prepare_directory(const std::string &directory, const bool is_first)
   std::filesystem::create_directories(directory, error);
   require(!error && std::filesystem::is_directory(directory), "--output " + directory,
           "the directory cannot be made: " + error.message(), "choose another place");
-  DirectoryLock lock(directory, "--output " + directory);
-  for (const std::string name : {"history.csv", "study.csv", "cycle-0"})
-    require(!std::filesystem::exists(directory + "/" + name), "--output " + directory,
-            "the directory already holds results (" + name + ")",
-            "remove them, choose another directory, or go on with scree --resume " + directory
-              + ": nothing is overwritten");
+  DirectoryLock     lock(directory, "--output " + directory);
+  const std::string name = result_file_in(directory);
+  require(name.empty(), "--output " + directory,
+          "the directory already holds results (" + name + ")",
+          "remove them, choose another directory, or go on with scree --resume " + directory
+            + ": nothing is overwritten");
   return lock;
+}
+
+/** Lets the log tell of a run that was killed in the directory. */
+template <int dim>
+void
+tell_previous_run(const DirectoryLock &lock, Parameters<dim> &parameters)
+{
+  if (!lock.previous().empty())
+    parameters.warnings.push_back("the run before (" + lock.previous()
+                                  + ") did not come to its end");
 }
 
 /** Writes the resolved parameters; the file that is there stays until the new one is complete. */
@@ -164,7 +186,8 @@ void
 write_parameters(const ParameterFile &file, const std::string &directory)
 {
   const std::string name = directory + "/parameters.prm", next = name + ".new";
-  std::ofstream     out(next);
+  require_regular_if_there(next);
+  std::ofstream out(next);
   file.write(out);
   out.close();
   std::error_code error;
@@ -193,6 +216,7 @@ run(ParameterFile &file, const Arguments &arguments, const std::string &director
       return;
     }
   const DirectoryLock lock = prepare_directory(directory, is_first);
+  tell_previous_run(lock, parameters);
   MPI_Barrier(communicator);
   if (is_first)
     write_parameters(file, directory);
@@ -223,8 +247,7 @@ resume(ParameterFile &file, const std::string &directory, const MPI_Comm communi
   const DirectoryLock lock
     = is_first ? DirectoryLock(directory, "--resume " + directory) : DirectoryLock();
   MPI_Barrier(communicator);
-  if (!lock.previous().empty())
-    std::cout << "The run before (" << lock.previous() << ") did not come to its end" << std::endl;
+  tell_previous_run(lock, parameters);
   const auto checkpoint = Checkpoint<dim>::read(directory, communicator);
   require_resumable(checkpoint.parameters, parameters.resolved);
   Simulation<dim> simulation(parameters, directory, communicator, &checkpoint);

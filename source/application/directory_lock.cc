@@ -108,6 +108,7 @@ DirectoryLock::DirectoryLock(const std::string &directory, const std::string &wh
         }
     }
   while (!is_in_place(file, file_name));
+  by_signals             = std::make_unique<RemovalBySignals>(file_name);
   previous_owner         = content(file);
   const std::string text = description_of_this_process() + "\n";
   const bool is_written  = ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) > 0;
@@ -119,6 +120,7 @@ DirectoryLock::DirectoryLock(DirectoryLock &&other) noexcept
     : file(std::exchange(other.file, -1))
     , file_name(std::move(other.file_name))
     , previous_owner(std::move(other.previous_owner))
+    , by_signals(std::move(other.by_signals))
 {
 }
 
@@ -128,6 +130,7 @@ DirectoryLock::operator=(DirectoryLock &&other) noexcept
   std::swap(file, other.file);
   std::swap(file_name, other.file_name);
   std::swap(previous_owner, other.previous_owner);
+  std::swap(by_signals, other.by_signals);
   return *this;
 }
 

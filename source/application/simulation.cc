@@ -394,6 +394,7 @@ Simulation<dim>::collect() const
   result.steps      = step_control.record();
   result.stages     = stages.record();
   result.results    = results.record();
+  result.report     = report.record();
   result.warnings   = run_log.warnings;
   result.stepper    = stepper->recorded();
   result.state      = model.gathered();
@@ -412,6 +413,7 @@ Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
   model.restore(checkpoint.state, time, step_control.step_size(), directory);
   const DiscreteProblem<dim> &problem = model.problem();
   results.set_discretization(problem.space, problem.level_set_nodes);
+  report.resume(checkpoint.report);
   results.resume(checkpoint.results, problem.equilibrium(), problem.contact());
   if (!checkpoint.warning.empty())
     run_log.log.line("Warning: " + checkpoint.warning);

@@ -2,6 +2,7 @@
 #include <scree/base/expression.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 
@@ -55,6 +56,20 @@ name_of_table(const std::size_t number)
   return "value_of_table_" + std::to_string(number);
 }
 
+/** Whether there is nothing between two semicolons or at an end. */
+bool
+has_empty_component(const std::string &formula)
+{
+  bool is_empty = true;
+  for (const char c : formula + ';')
+    {
+      if (c == ';' && is_empty)
+        return true;
+      is_empty = c == ';' || (is_empty && std::isspace(static_cast<unsigned char>(c)));
+    }
+  return false;
+}
+
 /** Whether a formula sets a variable: muParser would change x, y or t for what follows. */
 bool
 assigns(const std::string &formula)
@@ -93,6 +108,9 @@ Expression<dim>::Expression(const std::string &text, const unsigned int n_compon
     = static_cast<unsigned int>(std::count(compilable.begin(), compilable.end(), ';'));
   require(separators + 1 == n_components, where,
           "'" + text + "' has " + std::to_string(separators + 1) + " component(s)",
+          "give " + std::to_string(n_components) + " expression(s) of " + variables
+            + ", separated by ';'");
+  require(!has_empty_component(compilable), where, "a component of '" + text + "' is empty",
           "give " + std::to_string(n_components) + " expression(s) of " + variables
             + ", separated by ';'");
   require(!assigns(compilable), where, "'" + text + "' sets a variable", "compare with '=='");

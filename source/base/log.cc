@@ -1,4 +1,5 @@
 #include <scree/base/log.h>
+#include <scree/base/text_file.h>
 
 #include <cmath>
 #include <cstdio>
@@ -15,8 +16,10 @@ Log::Log(const MPI_Comm communicator, const std::string &file_name, const bool g
   is_first = rank == 0;
   // mpirun gives its processes a terminal for the standard output only.
   is_terminal = is_first && isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
-  if (is_first && !file_name.empty())
-    file.open(file_name, goes_on ? std::ios::app : std::ios::out);
+  if (!is_first || file_name.empty())
+    return;
+  require_regular_if_there(file_name);
+  file.open(file_name, goes_on ? std::ios::app : std::ios::out);
 }
 
 void

@@ -82,7 +82,7 @@ read_bytes(const std::string &path, const std::size_t largest_size, const std::s
   require(!fs::is_directory(status), where, "'" + path + "' is a directory", "name a file");
   require(fs::is_regular_file(status), where,
           "'" + path + "' is no regular file but a pipe or a device",
-          "write the " + what + " to a file");
+          "write what it gives to a file, and name that");
   const auto size = fs::file_size(path, error);
   require(!error && size <= largest_size, where,
           "the file '" + path + "' of " + std::to_string(size / 1000000) + " MB is too large for "
@@ -96,6 +96,17 @@ read_bytes(const std::string &path, const std::size_t largest_size, const std::s
   // A special file, for example of /proc, may tell another size than it has.
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
   return bytes;
+}
+
+void
+require_regular_if_there(const std::string &path)
+{
+  std::error_code       error;
+  const fs::file_status status = fs::status(path, error);
+  require(!fs::exists(status) || fs::is_regular_file(status), path,
+          fs::is_directory(status) ? "is a directory, no file"
+                                   : "is no regular file but a pipe or a device",
+          "remove it: the run writes there");
 }
 
 std::string

@@ -64,6 +64,18 @@ value_text(const BoundaryConditionParameters<dim> &parameters)
   return zeros;
 }
 
+/** How many values there are to give. */
+template <int dim>
+std::string
+hint_for_value(const BoundaryConditionParameters<dim> &parameters)
+{
+  return parameters.components.empty()
+           ? "Components is not set, so all are prescribed: "
+               + joined({axes.begin(), axes.begin() + dim}, ", ")
+               + "; for one alone set Components = " + axes[dim - 1]
+           : "one for each of Components = " + joined(parameters.components, ", ");
+}
+
 /** The names of the kinds for which `answer` is true, as in "pressure, wind". */
 template <int dim, typename Question>
 std::string
@@ -158,6 +170,8 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
     if (kind.declare != nullptr)
       kind.declare(*this, section, kind.name == type);
 
+  if (section.is_wrong("Type"))
+    return places;
   const ConditionKind<dim> &kind = condition_kind<dim>(type);
   check_components(*this, kind, section);
   check_unused_entries(kind, section);
@@ -165,7 +179,9 @@ BoundaryConditionParameters<dim>::declare(ParameterSection &section)
     section.error("Value", "a " + kind.name + " condition needs a value",
                   "set Value = expression(s) of x, y, z, t");
   check_expression<dim>(section, "Where", where, 1);
-  check_expression<dim>(section, "Value", value_text(*this), n_values(*this));
+  if (!section.is_wrong("Components"))
+    check_expression<dim>(section, "Value", value_text(*this), n_values(*this),
+                          kind.uses("Components") ? hint_for_value(*this) : "");
   return places;
 }
 

@@ -58,7 +58,7 @@ private:
   /** Records an entry that is set although the type has no use for it. */
   void refuse_unless(const bool is_used, const std::string &key)
   {
-    if (!is_used && section.is_set(key))
+    if (!is_used && section.is_set(key) && !section.is_wrong("Type"))
       error(key, "'" + key + "' is not used by Type = " + type,
             "remove it, or choose another type");
   }
@@ -155,7 +155,7 @@ PackingEntries<dim>::declare_shapes()
       refuse_unless(!is_ball, "Second aspect ratio");
     }
   if (shapes.type == RandomShapeType::ellipsoid && !section.is_set("Aspect ratio")
-      && !(dim == 3 && section.is_set("Second aspect ratio")))
+      && !section.is_wrong("Type") && !(dim == 3 && section.is_set("Second aspect ratio")))
     error("Aspect ratio", "is needed by Type = " + type,
           "give a number or a range, as 1.2, 1.8; or set Type = " + names[0]);
   section.entry("Exponent", shapes.exponent, dealii::Patterns::Double(1., 20.),

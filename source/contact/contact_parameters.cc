@@ -111,7 +111,8 @@ declare_law(ContactPairParameters &parameters, const ParameterSection &section)
       if (law.declare != nullptr)
         law.declare(parameters, section, is_chosen);
       for (const std::string &entry : law.entries)
-        if (section.is_set(entry) && std::find(used.begin(), used.end(), entry) == used.end())
+        if (!section.is_wrong("Law") && section.is_set(entry)
+            && std::find(used.begin(), used.end(), entry) == used.end())
           section.error(entry, "the law " + parameters.kind->name + " does not use it",
                         "remove it (--set \"" + section.path() + "/" + entry
                           + "=\" does), or set Law = " + law.name);

@@ -92,6 +92,8 @@ check_polygon(const ShapeParameters<dim> &p, const ParameterSection &section)
                          "use a box or an intersection of half spaces");
   const std::string &file = p.text("Vertices file");
   const std::string  key  = file.empty() ? "Vertices" : "Vertices file";
+  if (section.is_wrong("Vertices"))
+    return;
   if (file.empty() == p.vertices("Vertices").empty())
     return section.error(file.empty() ? "Type" : "Vertices file",
                          file.empty()

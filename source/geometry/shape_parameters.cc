@@ -175,7 +175,7 @@ check_use(const ShapeParameters<dim> &p, const ParameterSection &section)
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };
   for (const std::string &key : required)
-    if (!contains(given, key))
+    if (!contains(given, key) && !section.is_wrong(key))
       section.error("Type", "Type = " + p.type + " needs the entry '" + key + "', which is not set",
                     "set " + list);
   for (const std::string &key : given)
@@ -280,6 +280,8 @@ ShapeParameters<dim>::declare(const ParameterSection &section, const std::string
   declare_parts(*this, section);
   if (!instead.empty())
     return check_no_use(*this, section, instead);
+  if (section.is_wrong("Type"))
+    return;
   check_use(*this, section);
   check_values(*this, section);
   if (const auto check = family_of<dim>(type).check; check != nullptr)

@@ -146,6 +146,8 @@ MaterialParameters::declare(const ParameterSection &section)
   section.entry("Density", density,
                 "Mass per volume in the reference configuration, not negative "
                 "[mass/length^3]. Needed for body forces per mass and for inertia.");
+  if (section.is_wrong("Law"))
+    return;
   for (const Problem &problem : problems_of(*this))
     section.error(problem.key, problem.what, problem.remedy);
 }

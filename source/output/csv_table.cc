@@ -1,4 +1,5 @@
 #include <scree/base/exceptions.h>
+#include <scree/base/text_file.h>
 #include <scree/output/csv_table.h>
 
 #include <deal.II/base/exceptions.h>
@@ -30,6 +31,7 @@ joined(const std::vector<std::string> &words)
 int
 opened(const std::string &file_name, const int mode)
 {
+  require_regular_if_there(file_name);
   const int file = open(file_name.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | mode, 0666);
   require(file >= 0, file_name, std::string("cannot be written: ") + std::strerror(errno),
           "check the output directory and the disk");

@@ -170,7 +170,7 @@ RunReport<dim>::step(const StepRecord &record, const ContactPoints<dim> &contact
       numbers.open += summary.open;
       numbers.stick += summary.stick;
       numbers.slip += summary.slip;
-      has_touched |= summary.is_closed();
+      so_far.has_touched |= summary.is_closed();
     }
   run_log.log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time)
                    + ": " + std::to_string(record.newton_iterations) + " iterations, residual "
@@ -280,11 +280,11 @@ template <int dim>
 void
 RunReport<dim>::energies(const Energies &energies, const double time)
 {
-  largest_work      = std::max(largest_work, std::abs(energies.external_work));
-  const double gain = -energies.balance_error();
-  if (has_gained || energies.kinetic == 0. || gain <= 0.5 * largest_work)
+  so_far.largest_work = std::max(so_far.largest_work, std::abs(energies.external_work));
+  const double gain   = -energies.balance_error();
+  if (so_far.has_gained || energies.kinetic == 0. || gain <= 0.5 * so_far.largest_work)
     return;
-  has_gained = true;
+  so_far.has_gained = true;
   run_log.log.line(
     "Warning: at time " + short_number(time) + " there is " + short_number(gain)
     + " more energy than came in (" + short_number(energies.external_work)
@@ -299,7 +299,7 @@ RunReport<dim>::end(const DiscreteProblem<dim> &problem, const unsigned int n_re
                     const std::string &directory)
 {
   Log &log = run_log.log;
-  if (problem.bodies.size() > 1 && !has_touched)
+  if (problem.bodies.size() > 1 && !so_far.has_touched)
     nothing_touched(problem);
   log.line("Wall time by part:");
   for (const auto &[name, seconds] : run_log.timings.parts())

@@ -46,9 +46,10 @@ in_short(const std::string &text)
 }
 
 void
-add_wrong_value(ParameterTree &tree, const ParameterNode &node, const ParameterEntry &entry,
+add_wrong_value(ParameterTree &tree, const ParameterNode &node, ParameterEntry &entry,
                 const std::string &hint)
 {
+  entry.is_wrong = true;
   tree.add_problem(
     node, entry.position,
     '"' + entry.key + "\" = " + in_short(entry.text) + " is not allowed: " + entry.allowed, hint);
@@ -94,22 +95,23 @@ declare_section(ParameterTree &tree, ParameterNode &node, const std::string &nam
 
 /** The names of `entry` that can be used; problems are recorded. */
 std::vector<std::string>
-checked_names(ParameterTree &tree, const ParameterNode &node, const ParameterEntry &entry)
+checked_names(ParameterTree &tree, const ParameterNode &node, ParameterEntry &entry)
 {
   std::vector<std::string> names;
   std::set<std::string>    seen;
-  const std::string        where = "\"" + entry.key + "\" = " + in_short(entry.text);
+  const auto               refuse = [&](const std::string &what, const std::string &remedy) {
+    entry.is_wrong = true;
+    tree.add_problem(node, entry.position, "\"" + entry.key + "\" = " + in_short(entry.text) + what,
+                                   remedy);
+  };
   for (const auto &name : split_list(entry.text))
     {
       if (name.empty())
-        tree.add_problem(node, entry.position, where + " has an empty name",
-                         "remove the surplus comma or write the missing name");
+        refuse(" has an empty name", "remove the surplus comma or write the missing name");
       else if (name.find_first_of("/=") != std::string::npos)
-        tree.add_problem(node, entry.position, where + ": '" + name + "' cannot be a name",
-                         "use names without '/' and '='");
+        refuse(": '" + name + "' cannot be a name", "use names without '/' and '='");
       else if (!seen.insert(name).second)
-        tree.add_problem(node, entry.position, where + " lists '" + name + "' more than once",
-                         "give each its own name");
+        refuse(" lists '" + name + "' more than once", "give each its own name");
       else
         names.push_back(name);
     }
@@ -231,6 +233,8 @@ void
 ParameterSection::error(const std::string &key, const std::string &what,
                         const std::string &remedy) const
 {
+  if (is_wrong(key))
+    return;
   const ParameterProblem problem = problem_of(*node, key, what, remedy);
   tree->add_problem(*node, problem.position, problem.what, problem.remedy);
 }
@@ -249,6 +253,13 @@ ParameterSection::is_set(const std::string &key) const
   const ParameterEntry *entry = node->find_entry(key);
   return entry != nullptr && entry->is_set
          && (entry->order == 0 ? !entry->text.empty() : entry->value != entry->default_value);
+}
+
+bool
+ParameterSection::is_wrong(const std::string &key) const
+{
+  const ParameterEntry *entry = node->find_entry(key);
+  return entry != nullptr && entry->is_wrong;
 }
 
 std::string

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -323,14 +324,20 @@ split_list(const std::string &text, const char separator)
   if (text.find_first_not_of(" \t") == std::string::npos)
     return pieces;
   std::size_t begin = 0;
-  while (true)
+  int         depth = 0; // of parentheses; those that do not belong together count for nothing
+  const bool  nests
+    = std::count(text.begin(), text.end(), '(') == std::count(text.begin(), text.end(), ')');
+  for (std::size_t i = 0; i <= text.size(); ++i)
     {
-      const std::size_t end = text.find(separator, begin);
-      pieces.push_back(dealii::Utilities::trim(text.substr(begin, end - begin)));
-      if (end == std::string::npos)
-        return pieces;
-      begin = end + 1;
+      if (i == text.size() || (text[i] == separator && depth == 0))
+        {
+          pieces.push_back(dealii::Utilities::trim(text.substr(begin, i - begin)));
+          begin = i + 1;
+        }
+      else if (nests)
+        depth = std::max(0, depth + (text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0));
     }
+  return pieces;
 }
 
 template <typename T>

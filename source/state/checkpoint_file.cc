@@ -8,6 +8,8 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <istream>
+#include <limits>
 #include <ostream>
 #include <streambuf>
 #include <unistd.h>
@@ -28,7 +30,7 @@ struct Header
 };
 
 constexpr char          mark[16] = "scree restart\n\x1a";
-constexpr std::uint32_t format   = 9;
+constexpr std::uint32_t format   = 10;
 
 /** Why a file is no usable checkpoint. */
 struct Damage
@@ -62,7 +64,8 @@ class FileBuffer : public std::streambuf
 {
 public:
   explicit FileBuffer(const std::string &file_name)
-      : file(open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+      : file(open(file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK,
+                  0666)) // a pipe that nobody reads is an error
       , error(file < 0 ? errno : 0)
       , piece(1u << 20)
   {
@@ -143,28 +146,51 @@ private:
   std::vector<char> piece;
 };
 
+/** Bytes of a whole file around its contents. */
+std::uint64_t
+size_of_file(const Header &header)
+{
+  return sizeof header + header.size + sizeof(std::uint32_t);
+}
+
+/** The header of a file that has as many bytes as it says. */
+Header
+read_header(std::istream &file, const std::uint64_t size)
+{
+  Header header{};
+  if (!file.read(reinterpret_cast<char *>(&header), sizeof header)
+      || std::memcmp(header.mark, mark, sizeof mark) != 0)
+    throw Damage{"is not a checkpoint of scree"};
+  // A size that cannot be has been damaged: its sum with the others may be beyond all numbers.
+  if (header.size > std::numeric_limits<std::uint64_t>::max() / 2 || size > size_of_file(header))
+    throw Damage{"is damaged: it has " + std::to_string(size) + " bytes, its header says "
+                 + std::to_string(header.size) + " for the contents"};
+  if (size < size_of_file(header))
+    throw Damage{"is incomplete: it has " + std::to_string(size) + " of "
+                 + std::to_string(size_of_file(header)) + " bytes"};
+  return header;
+}
+
 std::string
 read_contents(const std::string &file_name, const unsigned int dimension)
 {
-  std::ifstream file(file_name, std::ios::binary | std::ios::ate);
-  if (!file.good() || !std::filesystem::is_regular_file(file_name))
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file_name, error)) // a pipe would be waited for
+    throw Damage{"cannot be read: it is no regular file"};
+  const std::uint64_t size = std::filesystem::file_size(file_name, error);
+  std::ifstream       file(file_name, std::ios::binary);
+  if (error || !file.good())
     throw Damage{"cannot be read"};
-  std::string bytes(file.tellg(), '\0');
-  file.seekg(0);
-  if (!file.read(bytes.data(), bytes.size()))
+  const Header  header = read_header(file, size);
+  std::uint32_t crc    = 0;
+  std::string   contents(header.size, '\0');
+  if (!file.read(contents.data(), contents.size())
+      || !file.read(reinterpret_cast<char *>(&crc), sizeof crc))
     throw Damage{"cannot be read"};
-  Header        header{};
-  std::uint32_t crc = 0;
-  if (bytes.size() < sizeof header + sizeof crc
-      || std::memcmp(bytes.data(), mark, sizeof mark) != 0)
-    throw Damage{"is not a checkpoint of scree"};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (bytes.size() != sizeof header + header.size + sizeof crc)
-    throw Damage{"is incomplete: it has " + std::to_string(bytes.size()) + " of "
-                 + std::to_string(sizeof header + header.size + sizeof crc) + " bytes"};
-  const std::size_t n = bytes.size() - sizeof crc;
-  std::memcpy(&crc, bytes.data() + n, sizeof crc);
-  if (crc != crc32_z(0, reinterpret_cast<const unsigned char *>(bytes.data()), n))
+  const auto bytes_of = [](const void *data) { return static_cast<const unsigned char *>(data); };
+  if (crc
+      != crc32_z(crc32_z(0, bytes_of(&header), sizeof header), bytes_of(contents.data()),
+                 contents.size()))
     throw Damage{"is damaged: its checksum is wrong"};
   if (header.format != format)
     throw Damage{"is of format " + std::to_string(header.format)
@@ -173,9 +199,7 @@ read_contents(const std::string &file_name, const unsigned int dimension)
   if (header.dimension != dimension)
     throw Damage{"is of a run in " + std::to_string(header.dimension) + " dimensions, not "
                  + std::to_string(dimension) + " (use the parameters.prm that the run wrote)"};
-  bytes.resize(n);
-  bytes.erase(0, sizeof header);
-  return bytes;
+  return contents;
 }
 } // namespace
 
@@ -192,7 +216,7 @@ write_checkpoint_file(const std::string &directory, const unsigned int dimension
   header.dimension = dimension;
   header.size      = counter.n_bytes;
 
-  const std::size_t n_bytes = sizeof header + header.size + sizeof(std::uint32_t);
+  const std::size_t n_bytes = size_of_file(header);
   const std::string newest = directory + "/checkpoint", next = newest + ".new";
   const auto        require_done = [&](const int error) {
     if (error != 0)

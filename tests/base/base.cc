@@ -5,11 +5,13 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
 #include <scree/base/log.h>
+#include <scree/base/text_file.h>
 #include <scree/base/time_table.h>
 
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <sys/stat.h>
 
 #include "../messages.h"
 
@@ -30,6 +32,13 @@ TEST(Expression, ComponentsOfPositionAndTime)
   EXPECT_EQ(vector[0], 11.);
   EXPECT_EQ(vector[1], 9.);
   EXPECT_EQ(Expression<3>("z", 1, "here").value(Point<3>(1., 2., 7.)), 7.);
+}
+
+TEST(Expression, EmptyComponentsAreTold)
+{
+  for (const std::string text : {"0;", "; 0", " ;0", "0; "})
+    expect_contains(complaint([&]() { Expression<2>(text, 2, "here"); }),
+                    "a component of '" + text + "' is empty");
 }
 
 TEST(TimeTable, IsLinearBetweenItsRows)
@@ -162,6 +171,19 @@ TEST(Exceptions, OneMessage)
   EXPECT_STREQ(UserError("Grid", "is wrong").what(), "Grid: is wrong");
   EXPECT_NO_THROW(require(true, "Grid", "is wrong"));
   EXPECT_THROW(require(false, "Grid", "is wrong"), UserError);
+}
+
+TEST(TextFile, APipeIsRefusedWithARemedyForWhateverItIs)
+{
+  const std::string pipe = testing::TempDir() + "scree_pipe";
+  std::remove(pipe.c_str());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string what : {"parameters", "a table"})
+    expect_contains(complaint([&]() { read_bytes(pipe, 100, "here", "check it", what); }),
+                    "remedy: write what it gives to a file, and name that");
+  expect_contains(complaint([&]() { require_regular_if_there(pipe); }), "no regular file");
+  std::remove(pipe.c_str());
+  EXPECT_NO_THROW(require_regular_if_there(pipe));
 }
 
 TEST(Log, ListsOfNames)

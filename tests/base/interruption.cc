@@ -4,6 +4,10 @@
 #include <scree/base/interruption.h>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
 
 namespace scree
 {
@@ -48,5 +52,33 @@ TEST(InterruptionDeathTest, TheSecondSignalEndsTheProgram)
       raise(SIGINT);
     },
     testing::KilledBySignal(SIGINT), "ends after this iteration");
+}
+
+TEST(InterruptionDeathTest, AFileIsRemovedBeforeTheEnd)
+{
+  const std::string name = testing::TempDir() + "scree_removed_by_signals";
+  for (const bool is_noted : {false, true})
+    {
+      std::ofstream(name) << "x";
+      EXPECT_EXIT(
+        {
+          const RemovalBySignals removal(name);
+          if (!is_noted)
+            raise(SIGPIPE);
+          const Interruption interruption(false);
+          raise(SIGINT);
+          if (!std::ifstream(name).good())
+            std::exit(1); // it stays while a run is asked to end
+          raise(SIGINT);
+        },
+        testing::KilledBySignal(is_noted ? SIGINT : SIGPIPE), "");
+      EXPECT_FALSE(std::ifstream(name).good());
+    }
+  std::ofstream(name) << "x";
+  {
+    const RemovalBySignals removal(name);
+  }
+  EXPECT_TRUE(std::ifstream(name).good());
+  std::remove(name.c_str());
 }
 } // namespace scree

@@ -213,5 +213,16 @@ TEST(ShapeParameters, DocumentationEnds)
   file.write_markdown(text);
   expect_contains(text.str(), "Semi-axes");
 }
+TEST(ShapeParameters, OfAWrongEntryNothingElseIsTold)
+{
+  const std::string radius = message<2>("set Type = disc\nset Centre = 0, 0\nset Radius = t");
+  expect_contains(radius, "\"Radius\" = t is not allowed");
+  EXPECT_EQ(radius.find("problems"), std::string::npos) << radius;
+  const std::string type = message<2>("set Type = dsic\nset Centre = 0, 0\nset Radius = 1");
+  expect_contains(type, "did you mean 'disc'");
+  EXPECT_EQ(type.find("problems"), std::string::npos) << type;
+  const std::string vertices = message<2>("set Type = polygon\nset Vertices = 0,0; 1,0; 1,t");
+  EXPECT_EQ(vertices.find("problems"), std::string::npos) << vertices;
+}
 } // namespace
 } // namespace scree

@@ -2,16 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
+#include <scree/base/log.h>
 #include <scree/output/body_output.h>
 #include <scree/output/contact_output.h>
 #include <scree/output/csv_table.h>
 #include <scree/output/probes.h>
+#include <scree/output/result_files.h>
 
 #include <cmath>
 #include <csignal>
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "../mechanics/equilibrium_model.h"
 #include "files.h"
@@ -21,6 +24,28 @@ namespace scree
 namespace
 {
 using namespace dealii;
+
+TEST(ResultFiles, OfARunAreFoundAndThoseOfACheckAreNone)
+{
+  const Directory directory;
+  const auto      put
+    = [&](const std::string &name) { std::ofstream(directory.path + "/" + name) << "x"; };
+  for (const std::string name :
+       {"log.txt", "parameters.prm", "lock", "bodies_0000.vtu", "contact_0000.csv", "bodies.pvd",
+        "regions.csv", "grid.pvtu", "setup.png", "my_bodies_0001.vtu", "checkpoint.new"})
+    put(name);
+  EXPECT_EQ(result_file_in(directory.path), "");
+  for (const std::string name :
+       {"history.csv", "grains.csv", "study.csv", "cycle-0", "checkpoint.old", "bodies_0001.vtu",
+        "bodies_0010.0.vtu", "contact_0001.csv", "points_12345.pvtu", "chains_0002.vtp",
+        "line_a_b_0003.csv"})
+    {
+      put(name);
+      EXPECT_EQ(result_file_in(directory.path), name);
+      std::filesystem::remove(directory.path + "/" + name);
+    }
+  EXPECT_EQ(result_file_in(directory.path + "/nowhere"), "");
+}
 
 TEST(CsvTable, RowsAreWrittenAtOnce)
 {
@@ -55,6 +80,17 @@ TEST(CsvTable, GoesOnAfterSomeRowsAndCutsTheRest)
   EXPECT_THROW(CsvTable(name, {"a", "b"}, 4), UserError); // half a row is none
   EXPECT_THROW(CsvTable(name, {"a", "c"}, 1), UserError);
   EXPECT_THROW(CsvTable(directory.path + "/none.csv", {"a"}, 0), UserError);
+}
+
+TEST(CsvTable, APipeInItsPlaceIsNotWaitedFor)
+{
+  const Directory   directory;
+  const std::string name = directory.path + "/table.csv";
+  ASSERT_EQ(mkfifo(name.c_str(), 0600), 0);
+  EXPECT_THROW(CsvTable(name, {"a"}), UserError);
+  EXPECT_THROW(CsvTable(name, {"a"}, 0), UserError);
+  EXPECT_THROW(Log(MPI_COMM_SELF, name), UserError);
+  EXPECT_THROW(Log(MPI_COMM_SELF, name, true), UserError);
 }
 
 TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)

@@ -181,6 +181,37 @@ TEST_F(ParameterFiles, MissingFilesAndCyclesAreErrors)
             "common/open.prm:1: 'subsection A' has no 'end' in this file\n"
             "  remedy: add a line 'end' behind the last entry of the section");
 }
+TEST(ReadParameters, CommasInFunctionsDoNotSplitLists)
+{
+  ParameterFile       file = ParameterFile::from_string("set Centre = max(0, 1), min(1, 2)\n"
+                                                              "set Sizes = 1, max(2, min(3, 4))\n"
+                                                              "set Corners = 0, max(1,2); 3, 4\n"
+                                                              "set Wrong = max(0, 1\n");
+  dealii::Point<2>    centre, wrong;
+  std::vector<double> sizes;
+  std::vector<dealii::Point<2>> corners;
+  file.root().entry("Centre", centre, "");
+  file.root().entry("Sizes", sizes, dealii::Patterns::Double(0.), "");
+  file.root().entry("Corners", corners, "");
+  EXPECT_EQ(centre, (dealii::Point<2>(1., 1.)));
+  EXPECT_EQ(sizes, (std::vector<double>{1., 3.}));
+  EXPECT_EQ(corners, (std::vector<dealii::Point<2>>{{0., 2.}, {3., 4.}}));
+  EXPECT_EQ(file.values().at("Centre"), "1, 1");
+  file.root().entry("Wrong", wrong, "");
+  EXPECT_TRUE(file.root().is_wrong("Wrong"));
+  EXPECT_FALSE(file.root().is_wrong("Centre"));
+  file.root().error("Wrong", "follows from that"); // is not told
+  try
+    {
+      file.check();
+      FAIL();
+    }
+  catch (const UserError &error)
+    {
+      EXPECT_EQ(std::string(error.what()).find("follows"), std::string::npos) << error.what();
+    }
+}
+
 TEST(ReadParameters, NumbersMayBeFormulasWithoutVariables)
 {
   ParameterFile       file  = ParameterFile::from_string("set Angle = - pi/2\nset Steps = 2*16\n"

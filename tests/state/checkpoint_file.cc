@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <sys/stat.h>
 
 namespace scree
 {
@@ -150,6 +151,29 @@ TEST_F(CheckpointFile, AFolderInItsPlaceCannotBeRead)
 {
   fs::create_directory(directory + "/checkpoint");
   expect_error("cannot be read");
+}
+
+TEST_F(CheckpointFile, APipeInItsPlaceIsNotWaitedFor)
+{
+  write("first");
+  write("second");
+  fs::remove(directory + "/checkpoint");
+  ASSERT_EQ(mkfifo((directory + "/checkpoint").c_str(), 0600), 0);
+  const auto read = read_checkpoint_file(directory, 2);
+  EXPECT_EQ(read.contents, "first");
+  EXPECT_NE(read.warning.find("no regular file"), std::string::npos) << read.warning;
+  ASSERT_EQ(mkfifo((directory + "/checkpoint.new").c_str(), 0600), 0);
+  EXPECT_THROW(write("third"), UserError);
+}
+
+TEST_F(CheckpointFile, WhatIsLargerThanItSaysIsNotRead)
+{
+  write("contents");
+  std::error_code error;
+  fs::resize_file(directory + "/checkpoint", std::uintmax_t(1) << 40, error); // mostly a hole
+  if (error)
+    GTEST_SKIP() << "no such large files here";
+  expect_error("its header says 8 for the contents");
 }
 
 TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)

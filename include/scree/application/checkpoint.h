@@ -4,6 +4,7 @@
 #include <scree/application/stepper.h>
 #include <scree/base/warnings.h>
 #include <scree/output/results.h>
+#include <scree/output/run_report.h>
 #include <scree/solver/step_control.h>
 #include <scree/state/gathered_state.h>
 
@@ -25,6 +26,7 @@ struct Checkpoint
   StepControlRecord                  steps;
   StageRecord<dim>                   stages;
   ResultsRecord                      results;
+  ReportRecord                       report;
   Warnings                           warnings;
   StepperRecord                      stepper;
   GatheredState<dim>                 state;
@@ -32,7 +34,7 @@ struct Checkpoint
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &program &parameters &steps &stages &results &warnings &stepper &state;
+    archive &program &parameters &steps &stages &results &report &warnings &stepper &state;
   }
 
   /** Writes it into a directory (write_checkpoint_file()); by one process. Returns its bytes. */

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <scree/base/interruption.h>
+
+#include <memory>
 #include <string>
 
 namespace scree
@@ -9,7 +12,8 @@ namespace scree
  * removed at its end, says which one: host, process and begin.
  *
  * The lock is the system's (flock), so it ends with the process whatever ends that; a file that a
- * killed run left behind is no obstacle.
+ * killed run left behind is no obstacle. Signals that end the program before a run notes them
+ * (Interruption) remove it.
  */
 class DirectoryLock
 {
@@ -36,7 +40,8 @@ public:
   }
 
 private:
-  int         file = -1; //!< descriptor
-  std::string file_name, previous_owner;
+  int                               file = -1; //!< descriptor
+  std::string                       file_name, previous_owner;
+  std::unique_ptr<RemovalBySignals> by_signals;
 };
 } // namespace scree

@@ -15,7 +15,7 @@ class Log
 public:
   /**
    * @param file_name the file to write, empty: none
-   * @param goes_on   whether it is appended to
+   * @param goes_on   whether it is appended to. @throws UserError if it is a pipe or a device
    */
   Log(const MPI_Comm communicator, const std::string &file_name, const bool goes_on = false);
 

@@ -20,6 +20,12 @@ std::string read_bytes(const std::string &path, const std::size_t largest_size,
                        const std::string &what);
 
 /**
+ * @throws UserError if there is something at `path` that is no regular file: a pipe would keep a
+ * run that writes there waiting for ever
+ */
+void require_regular_if_there(const std::string &path);
+
+/**
  * What stands in a text file, with lines that end in '\n' whatever they ended in (LF, CR LF, CR)
  * and without the mark of UTF-8 at its begin.
  *

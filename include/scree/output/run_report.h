@@ -11,6 +11,20 @@
 
 namespace scree
 {
+/** What a report knows of the steps so far: a run that is resumed goes on with it. */
+struct ReportRecord
+{
+  bool   has_touched  = false; //!< any pair in any step
+  double largest_work = 0.;    //!< of the loads up to a step, with the kinetic energy at the start
+  bool   has_gained   = false; //!< energy from nowhere
+
+  template <class Archive>
+  void serialize(Archive &archive, const unsigned int)
+  {
+    archive &has_touched &largest_work &has_gained;
+  }
+};
+
 /** What the log says of a run: its set-up, its steps, their failures. All functions are collective.
  */
 template <int dim>
@@ -58,16 +72,24 @@ public:
            const unsigned int n_checkpoints, const std::size_t checkpoint_bytes,
            const std::string &directory);
 
+  const ReportRecord &record() const
+  {
+    return so_far;
+  }
+
+  void resume(const ReportRecord &record)
+  {
+    so_far = record;
+  }
+
 private:
   void body(const DiscreteProblem<dim> &problem, const unsigned int body, const double volume);
   void contacts(const DiscreteProblem<dim> &problem, const bool has_many);
   void free_bodies(const DiscreteProblem<dim> &problem);
   void nothing_touched(const DiscreteProblem<dim> &problem);
 
-  RunLog &run_log;
-  bool    has_touched  = false; //!< any pair in any step
-  double  largest_work = 0.;    //!< of the loads up to a step, with the kinetic energy at the start
-  bool    has_gained   = false; //!< energy from nowhere
+  RunLog      &run_log;
+  ReportRecord so_far;
 };
 
 /** Makes pictures of a directory of results by contrib/plot, where it is installed. */

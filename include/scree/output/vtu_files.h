@@ -3,10 +3,12 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace scree
@@ -16,6 +18,10 @@ template <typename F>
 bool
 write_file(const std::string &file_name, const F &f)
 {
+  std::error_code error;
+  const auto      status = std::filesystem::status(file_name, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return false; // a pipe would be waited for
   std::ofstream file(file_name);
   try
     {

@@ -101,7 +101,7 @@ public:
   /**
    * Records a problem that only the module can see. It is told with file and line of `key` (an
    * entry or a subsection) if the user wrote it, else with the line of the section. `key` may be
-   * empty. Ignored in documentation mode.
+   * empty. Ignored in documentation mode, and of an entry that cannot be read, which was told.
    */
   void error(const std::string &key, const std::string &what, const std::string &remedy = "") const;
 
@@ -114,6 +114,12 @@ public:
    * resolved file, which contains every entry, then gives the same answers).
    */
   bool is_set(const std::string &key) const;
+
+  /**
+   * Whether what the user wrote for the entry `key` cannot be read (asked after entry()): then its
+   * value is the default, and what follows from that must not be told.
+   */
+  bool is_wrong(const std::string &key) const;
 
   /**
    * Whether the visit only collects documentation: alternatives of which a run visits one should

@@ -34,6 +34,9 @@ struct ParameterEntry
   std::string    text;
   SourcePosition position;
 
+  /** It cannot be read, which was told. */
+  bool is_wrong = false;
+
   /** Rank of the declaration among all entries and sections; 0 if no module declared the entry. */
   unsigned int order = 0;
   std::string  value;

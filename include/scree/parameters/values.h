@@ -42,6 +42,7 @@ std::string allowed_values(const dealii::Patterns::PatternBase *pattern);
 template <typename T>
 bool matches(const dealii::Patterns::PatternBase &pattern, const std::string &text);
 
-/** `text` split at `separator`, pieces trimmed; no piece if there is nothing but blanks. */
+/** `text` split at `separator` outside parentheses, as in "max(0, 1), 2"; pieces trimmed; no piece
+ * if there is nothing but blanks. */
 std::vector<std::string> split_list(const std::string &text, char separator = ',');
 } // namespace scree
