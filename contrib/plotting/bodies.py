@@ -18,7 +18,8 @@ def outline(mesh):
 
     An edge inside a body occurs twice, or faces a chain of shorter ones: of smaller cells, or of the parts of a cut cell.
     Cut cells of different size may share parts of edges only; such edges lie on grid lines, where the outline is what an
-    odd number of them covers (slivers may cover it several times).
+    odd number of them covers (slivers may cover it several times). Cells that share a corner of a body may cut it at places
+    that differ a little.
     """
     points, body = mesh.points[:, :2], mesh.body
     tolerance = 1e-7 * mesh.size
@@ -28,7 +29,70 @@ def outline(mesh):
     for along in range(2):
         flat = edges[on_line[:, 1 - along] & ~on_line[:, along]]
         segments.append(oddly_covered(points, body, flat, along, tolerance))
-    return np.concatenate(segments)
+    return without_needles(points, body, np.concatenate(segments), tolerance)
+
+
+def without_needles(points, body, edges, tolerance):
+    """Where two edges leave a point in nearly the same direction, they give way to what is between their other ends: beside
+    a corner, cells differ a little in where the surface cuts the edge between them."""
+    key = np.column_stack([np.rint(points[edges.ravel()] / tolerance / 4).astype(np.int64), body[edges.ravel()]])
+    _, first, number = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    places, number = points[edges.ravel()[first]], number.reshape(-1, 2)
+    left, neighbours = set(), [set() for _ in places]
+
+    def toggle(a, b):
+        if a != b:
+            left.symmetric_difference_update({(min(a, b), max(a, b))})
+            neighbours[a].symmetric_difference_update({b})
+            neighbours[b].symmetric_difference_update({a})
+
+    for a, b in number.tolist():
+        toggle(a, b)
+    for a, width in suspects(places, number):
+        while len(neighbours[a]) > 1:
+            ends = sorted(neighbours[a])
+            away = directions(places[ends] - places[a])
+            cosine = np.where(np.tri(len(ends), dtype=bool), -1.0, away @ away.T)
+            b, c = np.unravel_index(np.argmax(cosine), cosine.shape)
+            if cosine[b, c] < np.cos(width):
+                break
+            for pair in ((a, ends[b]), (a, ends[c]), (ends[b], ends[c])):
+                toggle(*pair)
+    return edges.ravel()[first][np.array(sorted(left), dtype=int).reshape(-1, 2)]
+
+
+def polylines(edges):
+    """The edges (n, 2), joined where they share a point: lists of points, closed ones with the first again at the end."""
+    neighbours = {}
+    for a, b in edges.tolist():
+        neighbours.setdefault(a, []).append(b)
+        neighbours.setdefault(b, []).append(a)
+    ends = [point for point, others in neighbours.items() if len(others) != 2]
+    lines = []
+    for start in ends + list(neighbours):
+        while neighbours[start]:
+            line = [start]
+            while neighbours[line[-1]] and (len(line) == 1 or line[-1] != start):
+                line.append(neighbours[line[-1]].pop())
+                neighbours[line[-1]].remove(line[-2])
+            lines.append(line)
+    return lines
+
+
+def suspects(places, edges):
+    """Points where more than two edges meet, or two in a needle, and how narrow needles are there, in radians."""
+    order = np.argsort(edges.ravel(), kind="stable")
+    point, end = edges.ravel()[order], edges[:, ::-1].ravel()[order]
+    count = np.bincount(point, minlength=len(places))
+    first = np.flatnonzero(np.diff(point, prepend=-1))
+    two = first[count[point[first]] == 2]
+    b, c = (directions(places[end[i]] - places[point[two]]) for i in (two, two + 1))
+    narrow = point[two][(b * c).sum(axis=1) > np.cos(0.03)]
+    return [(a, 0.1) for a in np.flatnonzero(count > 2).tolist()] + [(a, 0.03) for a in narrow.tolist()]
+
+
+def directions(vectors):
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True).clip(1e-300)
 
 
 def oddly_covered(points, body, edges, along, tolerance):
@@ -247,7 +311,8 @@ def draw_2d(picture, scale, box):
     if coloured.any():
         colours = axes.tripcolor(Triangulation(deformed[:, 0], deformed[:, 1], triangles[coloured]), picture.values,
                                  shading="gouraud", cmap="viridis", vmin=scale[0], vmax=scale[1], rasterized=True)
-    axes.add_collection(LineCollection(deformed[outline(mesh)], colors="black", linewidths=0.8, capstyle="round"))
+    lines = [deformed[line] for line in polylines(outline(mesh))]
+    axes.add_collection(LineCollection(lines, colors="black", linewidths=0.8, capstyle="round", joinstyle="round"))
     axes.set_xlabel(picture.run.units.label("x", "length"))
     axes.set_ylabel(picture.run.units.label("y", "length"))
     return figure, axes, colours

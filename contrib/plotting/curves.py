@@ -88,6 +88,9 @@ def draw_contact(run, step, references, pairs=None):
         draw_pair(panel, {key: values[chosen] for key, values in table.items()}, friction[pair],
                   references, run)
         panel.set_title(pair, pad=14.0)
+    if run.dimension == 3 and len(names) == 1:
+        shape = np.ptp(panels[0, 0].get_xlim()) / np.ptp(panels[0, 0].get_ylim())
+        figure.set_figwidth(min(max(3.6 * shape + 2.2, 5.5), 7.5))
     time = run.time_of(step)
     figure.suptitle(run.title + (f", time {short(time)}" if time is not None else ""))
     if left_out:
@@ -126,6 +129,11 @@ def cell_means(position, table):
     return [np.bincount(cell, of_points) / np.bincount(cell) for of_points in (position, pressure, tau)]
 
 
+def has_means(table, run):
+    """Whether tractions are drawn as means of cells."""
+    return run.parameters.get("Discretization/Degree", "1") == "1" and "cell_pressure" in table
+
+
 def draw_pair(panel, table, friction, references, run):
     """Tractions over the surface; in degree 1 lines of means of the cells, for those of points saw-tooth, and faint points."""
     units = run.units
@@ -137,7 +145,7 @@ def draw_pair(panel, table, friction, references, run):
     position, pressure = position[order], table["pressure"][order]
     tau = np.hypot(table["tau_x"], table["tau_y"])[order]
     along, pressures, tractions = position, pressure, tau
-    if run.parameters.get("Discretization/Degree", "1") == "1" and "cell_pressure" in table:
+    if has_means(table, run):
         for number, values in enumerate((pressure, tau)):
             panel.plot(position, values, ".", markersize=2, color=COLOURS[number], alpha=0.35)
         along, pressures, tractions = cell_means(position, {key: values[order] for key, values in table.items()})
@@ -180,7 +188,7 @@ def upper_limit(table):
 
 
 def draw_pair_3d(panel, table, run):
-    """The pressure over the contact surface, smoothed over a cell, seen along its mean normal where there is contact, and
+    """The pressure over the contact surface, smoothed over a cell and in degree 1 of means, seen along its mean normal where there is contact, and
     arrows of the tangential traction. Parts that face away are not seen; how many is told."""
     normals = np.stack([table[f"normal_{axis}"] for axis in "xyz"], axis=1)
     mean = normals.mean(axis=0)
@@ -195,7 +203,9 @@ def draw_pair_3d(panel, table, run):
     low, high = np.maximum(low - margin, lower[kept]), np.minimum(high + margin, upper[kept])
     seen = normals @ mean > 0.2 * np.linalg.norm(mean)
     near = ((points > low - 2.0 * cell) & (points < high + 2.0 * cell)).all(axis=1) & seen
-    image, extent = smoothed(points[near], table["weight"][near], table["pressure"][near], cell, 0.5 * cell, low, high)
+    # In degree 1 the means of cells, for the pressures of points saw-tooth.
+    column = "cell_pressure" if has_means(table, run) else "pressure"
+    image, extent = smoothed(points[near], table["weight"][near], table[column][near], cell, 0.5 * cell, low, high)
     colours = panel.imshow(image.clip(0.0), extent=extent, origin="lower", cmap="viridis", interpolation="bilinear", vmin=0.0)
     tau = np.stack([table[f"tau_{'xyz'[axis]}"] for axis in kept], axis=1)
     arrows = np.flatnonzero((np.linalg.norm(tau, axis=1) > 0.0) & near)
@@ -206,10 +216,11 @@ def draw_pair_3d(panel, table, run):
     panel.grid(False)
     panel.set_xlabel(run.units.label("xyz"[kept[0]], "length"))
     panel.set_ylabel(run.units.label("xyz"[kept[1]], "length"))
-    told = "p is smoothed over a cell" + (", arrows: tangential traction" if arrows.size else "")
+    told = "means of cells, smoothed" if has_means(table, run) else "p is smoothed over a cell"
+    told += ", arrows: tangential traction" if arrows.size else ""
     panel.annotate(told, (0.0, 1.0), xycoords="axes fraction", va="bottom", fontsize=8)
     bar = panel.figure.colorbar(colours, ax=panel, label=run.units.label("pressure p", "stress"), shrink=0.85)
-    bar.ax.set_title(f"max {short(np.nanmax(image, initial=0.0))}", fontsize=9)
+    bar.ax.set_title(f"max {short(np.nanmax(image, initial=0.0))}", fontsize=9, loc="left")
     behind = np.sum(table["weight"][~seen & (table["status"] > 0)]) / max(np.sum(table["weight"][table["status"] > 0]), 1e-300)
     if behind > 0.005:
         panel.annotate(f"{100.0 * behind:.0f} % of the contact faces away and is not seen", (0.02, 0.98),

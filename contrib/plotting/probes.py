@@ -18,8 +18,9 @@ def grouped(columns):
     return [group for group in groups if group[2]]
 
 
-def draw_curves(run, rows, label):
+def draw_curves(run, rows, label, starts_at_zero=False):
     """A row of panels for each (name, places, table), one for each group of columns; the figure."""
+    zero = [0.0] if starts_at_zero else []
     width = max(len(grouped(table)) for _, _, table in rows)
     figure, panels = plt.subplots(len(rows), width, squeeze=False, figsize=(6.5 * width, 3.4 * len(rows) + 0.5))
     for row, (name, places, table) in zip(panels, rows):
@@ -27,7 +28,7 @@ def draw_curves(run, rows, label):
             panel.set_axis_off()
         for panel, (title, quantity, columns) in zip(row, grouped(table)):
             for column in columns:
-                panel.plot(places, table[column], marker="o" if len(places) < 30 else "", markersize=4,
+                panel.plot([*zero, *places], [*zero, *table[column]], marker="o" if len(places) < 30 else "", markersize=4,
                            label=column.replace("_", " "))
             panel.set_title(name)
             panel.set_xlabel(label)
@@ -69,7 +70,10 @@ def draw_points(run):
     for name in dict.fromkeys(column.split(".")[0] for column in table if "." in column):
         own = {column.split(".", 1)[1]: values for column, values in table.items() if column.startswith(f"{name}.")}
         rows.append((f"probe {name}", table["time"], own))
-    figure = draw_curves(run, first_of(rows, "probes"), "time")
+    # Before the first step nothing is loaded, unless bodies overlap.
+    figure = draw_curves(run, first_of(rows, "probes"), "time", run.starts_unloaded())
+    for panel in figure.axes:
+        panel.set_xlim(left=min(0.0, table["time"][0]))
     figure.suptitle(run.title)
     return save(figure, run.directory / "probes.png")
 

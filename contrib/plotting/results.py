@@ -1,6 +1,7 @@
 """The files that a run of scree leaves in its output directory."""
 import re
 from collections import defaultdict
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -73,7 +74,8 @@ class Units:
 class BodyMesh:
     """The pieces of the bodies in the order of the file: points (n, 3) where they are at the start of the run, arrays
     of triangles and quadrilaterals (2D) or tetrahedra and hexahedra (3D) with the kind of each cell, and the fields at
-    the points. The file says whether its points are those of the start or moved (FieldData points_are_moved)."""
+    the points. The file says whether its points are those of the start or moved (FieldData points_are_moved); file_points
+    are those of the file."""
 
     triangle, quadrilateral, tetrahedron, hexahedron = 5, 9, 10, 12
 
@@ -113,8 +115,9 @@ class BodyMesh:
         self.cells = {kind: np.concatenate(parts) for kind, parts in cells.items()}
         self.dim = 3 if any(kind in self.cells for kind in (self.tetrahedron, self.hexahedron)) else 2
         self.is_moved = bool(is_moved)
+        self.file_points = self.points
         if self.is_moved:
-            self.points -= self.displacement[:, :3]
+            self.points = self.points - self.displacement[:, :3]
         self.fields["displacement_magnitude"] = np.linalg.norm(self.displacement, axis=1)
         self.rigid_bodies = np.array([], dtype=int)
 
@@ -236,7 +239,11 @@ class RunResults:
 
     def section_of(self, body):
         """The section in Bodies of a body: its own, or that of its family, of which FAMILY-0017 is one."""
-        return body if body in self.names("Bodies") else body.rpartition("-")[0]
+        return body if body in self.own_sections else body.rpartition("-")[0]
+
+    @cached_property
+    def own_sections(self):
+        return frozenset(self.names("Bodies"))
 
     def is_rigid(self, body):
         material = self.parameters.get(f"Bodies/{self.section_of(body)}/Material", "")
@@ -251,6 +258,7 @@ class RunResults:
         return [np.array([float(v) for v in self.parameters.get(f"Grid/{corner} corner", f"{end},{end},{end}").split(",")])
                 for corner, end in (("Lower", "-inf"), ("Upper", "inf"))]
 
+    @cached_property
     def regions(self):
         """The points of conditions on cut surfaces; empty without any."""
         file = self.directory / "regions.csv"
@@ -259,6 +267,14 @@ class RunResults:
     def history(self):
         """With the columns of pairs, wherever they are."""
         return with_pair_columns(self.directory, read_table(self.directory / "history.csv"))
+
+    @cached_property
+    def rows_of_regions(self):
+        """{(section of the body, condition): rows of the regions}."""
+        rows = defaultdict(list)
+        for row, key in enumerate(zip(self.regions.get("body", ()), self.regions.get("condition", ()))):
+            rows[self.section_of(key[0]), key[1]].append(row)
+        return rows
 
     def read_parameters(self):
         """The resolved parameters as {"Section/Subsection/Key": text}; those of a cycle are one directory up."""

@@ -1,5 +1,6 @@
 """What "scree --check" set up: bodies, cells, fitted boundaries, contact surfaces."""
 import textwrap
+from collections import defaultdict
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -27,9 +28,9 @@ def draw(run):
     figure, axes = figure_for(points, extra=ROOM)
     handles = draw_cells(axes, mesh, points)
     edges = outline(mesh)
-    for number in np.unique(mesh.body[edges[:, 0]]):
-        own = edges[mesh.body[edges[:, 0]] == number]
-        axes.add_collection(LineCollection(points[own], colors=body_colour(number), linewidths=1.6))
+    edges = edges[np.argsort(mesh.body[edges[:, 0]], kind="stable")]
+    colours = [body_colour(number) for number in mesh.body[edges[:, 0]]]
+    axes.add_collection(LineCollection(points[edges], colors=colours, linewidths=1.6))
     handles += [Line2D([], [], color=colour, linewidth=1.6, label=label) for colour, label in labels_of_bodies(mesh)]
     handles += draw_conditions(axes, run, mesh, points, edges)
     if run.contact_files:
@@ -149,12 +150,11 @@ class Condition:
 
     def on_surface(self, run, place):
         """The points of regions.csv (n, dim)."""
-        regions = run.regions()
-        if not regions:
+        if not run.regions:
             return np.empty((0, run.dimension))
         condition = self.name if len(self.on) == 1 else f"{self.name}.{place}"
-        own = [(run.section_of(b), c) == (self.body, condition) for b, c in zip(regions["body"], regions["condition"])]
-        return np.stack([np.asarray(regions[axis])[own] for axis in "xyz"[:run.dimension]], axis=1)
+        rows = run.rows_of_regions.get((self.body, condition), [])
+        return np.stack([np.asarray(run.regions[axis])[rows] for axis in "xyz"[:run.dimension]], axis=1)
 
     def places(self, run, mesh, centres, bodies):
         """Points of 3D where it acts: of every part of the outline on a face of the grid, of a region, or its point."""
@@ -170,11 +170,12 @@ def is_plane(place):
 
 def conditions_of(run, mesh):
     """All boundary conditions, each in a colour."""
-    number = 3
+    number, own = 3, defaultdict(list)
+    for index, name in enumerate(mesh.names):
+        own[run.section_of(name)].append(index)
     for body in run.names("Bodies"):
-        own = [index for index, name in enumerate(mesh.names) if run.section_of(name) == body]
         for name in run.names(f"Bodies/{body}/Boundary conditions"):
-            yield Condition(run, own, body, name, COLOURS[number % len(COLOURS)])
+            yield Condition(run, own[body], body, name, COLOURS[number % len(COLOURS)])
             number += 1
 
 

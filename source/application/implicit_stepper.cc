@@ -2,6 +2,7 @@
 #include <scree/base/interruption.h>
 #include <scree/contact/contact_reach.h>
 #include <scree/mechanics/balance_checks.h>
+#include <scree/mechanics/contact_groups.h>
 #include <scree/mechanics/existence.h>
 #include <scree/mechanics/first_guess.h>
 #include <scree/mechanics/material_update.h>
@@ -34,7 +35,7 @@ void
 ImplicitStepper<dim>::begin()
 {
   has_slid = step_control.n_accepted() > 0;
-  if (model.problem().mass)
+  if (model.has_inertia())
     {
       warn_of_overlap();
       return;
@@ -209,6 +210,11 @@ template <int dim>
 void
 ImplicitStepper<dim>::take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const
 {
+  if (!model.has_inertia())
+    {
+      attempt.record.momenta.assign(model.problem().bodies.size() * n_rigid_components<dim>, 0.);
+      return;
+    }
   const Mass<dim> &mass = *model.problem().mass;
   model.problem().equilibrium().set_kinetic_energy(mass.kinetic_energy(u, rates));
   auto                                velocities = mass.at_points(rates.velocity);
@@ -278,6 +284,14 @@ ImplicitStepper<dim>::hooks()
     problem.contact().laws().set_touching_holds(false);
     equilibrium.shorten(du, problem.grid.finest_size());
   };
+  const auto groups
+    = std::make_shared<ContactGroups<dim>>(problem.space, problem.bodies, problem.contact());
+  hooks.parts = [groups](const bool begins) {
+    if (begins)
+      groups->clear();
+    groups->add();
+    return begins ? Partition() : groups->partition();
+  };
   hooks.is_geometric = [&](const Vector &r, const double tolerance) {
     return equilibrium.is_geometric(r, tolerance);
   };
@@ -311,7 +325,7 @@ ImplicitStepper<dim>::set_hooks_of_lagging(Newton::Hooks &hooks)
     has_more_mass = has_mass && mass;
     equilibrium.set_artificial_mass(mass.value_or(Equilibrium<dim>::default_mass_factor));
   };
-  hooks.mass_work = [&](const Vector &du) { return equilibrium.artificial_work(du); };
+  hooks.mass = [&](const Vector &du) { return equilibrium.artificial_forces(du); };
 }
 
 template <int dim>
@@ -404,11 +418,18 @@ NewtonResult
 ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
                                           const NewtonResult &result)
 {
-  DiscreteProblem<dim> &problem = model.problem();
-  Vector                v(start);
-  const double          pressed_before = pressed;
+  constexpr double       rough   = 1e-5; // of the residual: enough to begin from
+  constexpr unsigned int few     = 40;
+  DiscreteProblem<dim>  &problem = model.problem();
+  Vector                 v(start);
+  const double           pressed_before = pressed;
   problem.contact().laws().set_sticks(true);
-  const unsigned int n_sticking = newton.solve(v).iterations;
+  Vector r(v);
+  problem.equilibrium().residual(v, model.state().contact, r);
+  NewtonParameters sticking = parameters.newton;
+  sticking.patience         = few;
+  sticking.absolute_tolerance += rough * r.l2_norm();
+  const unsigned int n_sticking = Newton(sticking, hooks()).solve(v).iterations;
   problem.contact().laws().set_sticks(false);
   const NewtonResult again = solve_enforced(newton, v);
   NewtonResult       best  = result;

@@ -57,7 +57,7 @@ Model<dim>::Model(const Parameters<dim> &parameters, const double step_size,
   current.was_closed.assign(problem().contact().points().size(), false);
   current.displacement = zero_displacement(problem().space);
   current.contact      = problem().contact().initial_history();
-  if (problem().mass)
+  if (has_inertia())
     start_motion(step_size);
   else if (is_moving())
     start_step();
@@ -151,9 +151,15 @@ void
 Model<dim>::make_problem(const double step_size)
 {
   const Parameters<dim>  &p = parameters;
-  const ProblemParameters of_problem{
-    p.discretization, p.contact.shift, p.contact.grid_nodes,        p.contact.enforcement,
-    p.moving,         p.linear_solver, p.time_scheme.has_inertia(), p.time_scheme.lumps_mass};
+  const ProblemParameters of_problem{p.discretization,
+                                     p.contact.shift,
+                                     p.contact.grid_nodes,
+                                     p.contact.enforcement,
+                                     p.moving,
+                                     p.linear_solver,
+                                     p.time_scheme.has_inertia(),
+                                     has_inertia(),
+                                     p.time_scheme.lumps_mass};
   discrete_problem = std::make_unique<DiscreteProblem<dim>>(*grid, pairs, of_problem, current,
                                                             step_size, run_log.timings);
 }
@@ -233,19 +239,8 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
     current.step_end.multipliers.push_back(ghosted(problem().space.multiplier(i)));
   MotionRecord<dim> record;
   record.transfer_report = problem().kinematics->transfer_report();
-  if (problem().mass)
-    {
-      const auto &rates = current.predictor.rates;
-      const auto  v     = problem().mass->with_ghosts(rates.velocity),
-                 a      = problem().mass->with_ghosts(rates.acceleration),
-                 f      = problem().mass->with_ghosts(rates.forces);
-      current.predictor.rates_of_rigid.resize(current.bodies.size());
-      for (unsigned int b = 0; b < current.bodies.size(); ++b)
-        if (current.bodies[b].is_rigid())
-          current.predictor.rates_of_rigid[b]
-            = {{rigid_unknowns(problem().space, b, v), rigid_unknowns(problem().space, b, a),
-                rigid_unknowns(problem().space, b, f)}};
-    }
+  if (has_inertia())
+    keep_rates_of_rigid();
   record.n_islands  = move_bodies(ghosted);
   current.points    = std::move(points);
   const auto before = current.points.totals(current.bodies.size(), communicator);
@@ -262,62 +257,6 @@ Model<dim>::move_geometry(MaterialPoints<dim> &&points, const double step_size)
     record.force_jumps[{pairs[p].a, pairs[p].b}]
       = forces[p].tangential_after - forces[p].tangential_before;
   return record;
-}
-
-template <int dim>
-void
-Model<dim>::start_motion(const double step_size)
-{
-  const Mass<dim>  &mass        = *problem().mass;
-  Equilibrium<dim> &equilibrium = problem().equilibrium();
-  Rates            &rates       = current.predictor.rates;
-  const auto        velocities  = mass.initial_velocities();
-  rates.velocity                = mass.fit(velocities);
-  rates.acceleration            = rates.velocity;
-  rates.acceleration            = 0.;
-  mass.set_initial_motion(rates);
-  set_prescribed_rates(equilibrium, current.time, step_size, nullptr, rates);
-  set_rigid_rows();
-  // What is prescribed and the loads act from the beginning.
-  Vector u = current.displacement, r = u;
-  equilibrium.set_time(current.time, u);
-  equilibrium.residual(u, current.contact, r);
-  r = equilibrium.forces_without_inertia();
-  mass.set_accelerations(
-    u, r, [&](Vector &v) { equilibrium.strong_supports().set_zero(v); }, rates);
-  rates.forces = r;
-  if (is_moving())
-    {
-      current.points.velocity     = velocities;
-      current.points.acceleration = mass.at_points(rates.acceleration);
-      current.points.forcing      = mass.at_points(mass.solve(r));
-    }
-  equilibrium.set_kinetic_energy(mass.kinetic_energy(u, rates));
-  equilibrium.start_motion(current.time, u, current.contact);
-  current.energies = equilibrium.energies();
-}
-
-template <int dim>
-void
-Model<dim>::fit_rates()
-{
-  const Mass<dim>              &mass  = *problem().mass;
-  const DisplacementSpace<dim> &space = problem().space;
-  Rates                        &rates = current.predictor.rates;
-  rates.velocity                      = mass.fit(current.points.velocity);
-  rates.acceleration                  = mass.fit(current.points.acceleration);
-  rates.forces                        = mass.forces(current.points.forcing);
-  for (unsigned int b = 0; b < current.bodies.size(); ++b)
-    if (current.bodies[b].is_rigid())
-      for (unsigned int m = 0; m < n_rigid_components<dim>; ++m)
-        if (const DofIndex row = space.rigid_unknown(b) + m; space.owned().is_element(row))
-          {
-            rates.velocity(row)     = current.predictor.rates_of_rigid[b][0][m];
-            rates.acceleration(row) = current.predictor.rates_of_rigid[b][1][m];
-            rates.forces(row)       = current.predictor.rates_of_rigid[b][2][m];
-          }
-  for (Vector *vector : {&rates.velocity, &rates.acceleration, &rates.forces})
-    vector->compress(dealii::VectorOperation::insert);
 }
 
 template <int dim>
@@ -348,7 +287,7 @@ Model<dim>::start_step()
   current.contact = recall(problem().contact(), end.contact);
   keep_resultants(problem().contact(), end.contact, current.contact, communicator);
   problem().contact().start_step(current.contact);
-  if (problem().mass)
+  if (has_inertia())
     {
       fit_rates();
       Rates &rates = current.predictor.rates;
@@ -416,12 +355,19 @@ Model<dim>::begin_stage(const bool friction_changes, const double step_size)
         is_other |= driven->set_motion(parameters.bodies[b].motion);
         current.bodies[b].rigid = driven;
       }
-  if (!is_other)
-    return;
-  discrete_problem.reset(); // it refers to the pairs
-  pairs = find_pairs();
-  is_moving() ? discretise(step_size) : make_problem(step_size);
-  is_moving() ? start_step() : resume_problem();
+  const bool begins_motion = has_inertia() && current.predictor.rates.acceleration.size() == 0;
+  if (begins_motion)
+    scheme = make_time_scheme<dim>(parameters.time_scheme);
+  if (is_other || begins_motion)
+    {
+      discrete_problem.reset(); // it refers to the pairs
+      pairs = find_pairs();
+      is_moving() ? discretise(step_size) : make_problem(step_size);
+    }
+  if (begins_motion)
+    start_motion(step_size);
+  else if (is_other)
+    is_moving() ? start_step() : resume_problem();
 }
 
 template <int dim>
@@ -458,7 +404,7 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
                     const std::string &directory)
 {
   current.time = time;
-  require(saved.has_inertia == (problem().mass != nullptr), directory,
+  require(saved.has_inertia == has_inertia(), directory,
           std::string("its run is one ") + (saved.has_inertia ? "with" : "without") + " inertia",
           "leave Time/Scheme as it was; schemes with inertia may take the place of each other");
   if (!is_moving())
@@ -483,6 +429,13 @@ Model<dim>::restore(const GatheredState<dim> &saved, const double time, const do
                         + error.what(),
                       "start the run anew");
     }
+  const StepEnd<dim> &end = current.step_end;
+  require(end.multipliers.size() == BoundaryTerms<dim>::n_multipliers(current.bodies)
+            && std::all_of(end.driving.of_points.begin(), end.driving.of_points.end(),
+                           [n = problem().boundary_terms.regions().size()](const auto &point) {
+                             return point.region < n;
+                           }),
+          directory, "the checkpoint belongs to other boundary conditions", "start the run anew");
   start_step();
 }
 

@@ -18,7 +18,7 @@ template <int dim>
 bool
 Relaxation<dim>::may_help() const
 {
-  return model.is_moving() && !model.problem().mass
+  return model.is_moving() && !model.has_inertia()
          && !model.problem().equilibrium().free_bodies().empty();
 }
 

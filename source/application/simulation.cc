@@ -2,6 +2,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/interruption.h>
 #include <scree/output/region_output.h>
+#include <scree/state/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_out.h>
@@ -14,6 +15,8 @@ namespace scree
 {
 namespace
 {
+const std::string start_anew = "start it anew: there is no checkpoint";
+
 /** The parameters in the stage that a run has reached. */
 template <int dim>
 Parameters<dim>
@@ -23,6 +26,7 @@ in_stage(const Parameters<dim> &input, const StageRecord<dim> &record)
   set_times(input.stages, record, result.time);
   set_motions(input.stages, record, result.bodies);
   set_friction(input.stages, record, result.contact);
+  result.time_scheme.is_static_stage = is_static(input.stages, record);
   return result;
 }
 } // namespace
@@ -222,7 +226,8 @@ Simulation<dim>::begin_next_stage()
   run_log.log.line("Stage " + stages.stage().name);
   parameters.bodies = input.bodies;
   set_motions(input.stages, stages.record(), parameters.bodies);
-  const double step_size = step_control.step_size();
+  parameters.time_scheme.is_static_stage = is_static(input.stages, stages.record());
+  const double step_size                 = step_control.step_size();
   model.begin_stage(set_friction(input.stages, stages.record(), parameters.contact), step_size);
   if (stages.stage().resets)
     run_log.log.line("  the bodies are reset: stored energy changes by "
@@ -260,7 +265,7 @@ Simulation<dim>::write_results(const StepRecord &record)
   if (is_due(parameters.output.fields_every, record))
     {
       std::optional<VelocityField<dim>> velocities;
-      if (problem.mass)
+      if (model.has_inertia())
         velocities.emplace(*problem.mass, u, model.state().predictor.rates.velocity);
       is_written &= results.write_fields(record, *problem.kinematics, ghosted,
                                          velocities ? &*velocities : nullptr);
@@ -282,9 +287,8 @@ void
 Simulation<dim>::write_points(const StepRecord &record)
 {
   const Timings::Scope scope(run_log.timings, "output");
-  warn_unless(
-    !is_due(parameters.output.points_every, record)
-    || results.write_points(record, model.state().points, model.problem().mass != nullptr));
+  warn_unless(!is_due(parameters.output.points_every, record)
+              || results.write_points(record, model.state().points, model.has_inertia()));
 }
 
 template <int dim>
@@ -301,7 +305,7 @@ Simulation<dim>::finish()
 {
   require(results.flush(), directory,
           "rows of history.csv or other tables could not be written to the last",
-          "make room on the disk and go on with scree --resume " + directory);
+          "make room on the disk and " + way_on());
   report.end(model.problem(), step_control.n_rejected(), saver.n_saved(), saver.bytes(), directory);
 }
 
@@ -365,12 +369,19 @@ Simulation<dim>::end_if_interrupted()
     {
       if (dealii::Utilities::MPI::broadcast(communicator, results.flush()))
         saver.save();
-      remedy = "go on with scree --resume " + directory;
+      remedy = way_on();
     }
   else
-    remedy = "start it anew: there is no checkpoint";
+    remedy = start_anew;
   run_log.log.line("The run was " + by + after + "; " + remedy);
   throw Interrupted{signal, by + after + "\n  remedy: " + remedy};
+}
+
+template <int dim>
+std::string
+Simulation<dim>::way_on() const
+{
+  return has_checkpoint(directory) ? "go on with scree --resume " + directory : start_anew;
 }
 
 template <int dim>

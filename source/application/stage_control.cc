@@ -20,6 +20,7 @@ StageControl<dim>::StageControl(const std::vector<StageParameters<dim>> &stages,
     , communicator(communicator)
     , current(record)
 {
+  require_record_of(stages, record);
   if (!stages.empty())
     present = std::min<unsigned int>(record.ends.size(), stages.size() - 1);
   set_stop();

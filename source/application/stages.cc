@@ -246,6 +246,17 @@ declare_stages(ParameterSection &section, const std::vector<BodyParameters<dim>>
       if (stage.resets && result.empty())
         stage_section.error("Reset", "the first stage has nothing to reset",
                             "leave it out, or put a stage before it");
+      bool has_inertia = true;
+      stage_section.entry("Inertia", has_inertia,
+                          "false: the stage is quasi-static, whatever Time/Scheme is. Such stages "
+                          "come first; bodies have their Initial velocity when they are over.");
+      stage.is_static = !has_inertia;
+      if (stage.is_static && !result.empty() && !result.back().is_static)
+        stage_section.error("Inertia",
+                            "the stage '" + result.back().name
+                              + "' before it has inertia: bodies "
+                                "that move would stop",
+                            "put stages without inertia first");
       declare_friction(stage_section, contact, stage.friction);
       for (auto &[body_name, body_section] : stage_section.named(
              "Bodies", "Names of the rigid bodies whose motion or load changes in this stage; all "
@@ -303,6 +314,30 @@ set_motions(const std::vector<StageParameters<dim>> &stages, const StageRecord<d
 }
 
 template <int dim>
+void
+require_record_of(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record)
+{
+  bool fits = record.ends.size() <= stages.size() && record.starts.size() <= stages.size()
+              && record.lengths.size() <= dim;
+  double time = 0.;
+  for (const double end : record.ends)
+    {
+      fits &= end > time && std::isfinite(end);
+      time = end;
+    }
+  for (unsigned int k = 1; fits && k < record.starts.size(); ++k)
+    for (const auto &[body, motion] : stages[k].bodies)
+      {
+        const auto start = record.starts[k].find(body);
+        fits &= start != record.starts[k].end()
+                && std::all_of(start->second.begin(), start->second.end(),
+                               [](const double value) { return std::isfinite(value); });
+      }
+  require(fits, "the checkpoint", "it does not belong to the stages of the run",
+          "start the run anew");
+}
+
+template <int dim>
 bool
 is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body)
 {
@@ -312,6 +347,14 @@ is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string 
         if (!load.empty())
           return true;
   return false;
+}
+
+template <int dim>
+bool
+is_static(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record)
+{
+  return !stages.empty()
+         && stages[std::min<std::size_t>(record.ends.size(), stages.size() - 1)].is_static;
 }
 
 template <int dim>
@@ -339,7 +382,10 @@ set_friction(const std::vector<StageParameters<dim>> &stages, const StageRecord<
                           TimeParameters &);                                                      \
   template void set_motions(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &,  \
                             std::vector<BodyParameters<dim>> &);                                  \
+  template void require_record_of(const std::vector<StageParameters<dim>> &,                      \
+                                  const StageRecord<dim> &);                                      \
   template bool is_ever_free(const std::vector<StageParameters<dim>> &, const std::string &);     \
+  template bool is_static(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &);   \
   template bool set_friction(const std::vector<StageParameters<dim>> &, const StageRecord<dim> &, \
                              ContactParameters &);
 INSTANTIATE(2)

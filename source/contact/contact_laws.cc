@@ -117,9 +117,9 @@ ContactLaws<dim>::freeze(const std::vector<ContactPoint<dim>>    &points,
     }
   std::vector<FrictionBound> bounds(points.size());
   for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
-    const ContactPairParameters &law = of_pairs[pair].law;
-    if (law.kind->bound)
-      law.kind->bound(law, range.of(std::as_const(pressures)), range.of(bounds));
+    const ContactLaw &law = acting_law(pair);
+    if (law.bound)
+      law.bound(of_pairs[pair].law, range.of(std::as_const(pressures)), range.of(bounds));
   });
   for (const FrictionBound &bound : bounds)
     frozen_bounds.push_back(bound.value);

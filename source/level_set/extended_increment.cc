@@ -14,6 +14,17 @@ ExtendedIncrement<dim>::ExtendedIncrement(const Lattice<dim> &lattice, NodalVect
 }
 
 template <int dim>
+bool
+ExtendedIncrement<dim>::is_whole() const
+{
+  if (is_empty())
+    return std::all_of(nodal.begin(), nodal.end(), [](const auto &v) { return v.empty(); });
+  return spacing > 0. && std::all_of(nodal.begin(), nodal.end(), [&](const auto &v) {
+           return is_number_of_nodes<dim>(v.size(), n_nodes, 2);
+         });
+}
+
+template <int dim>
 dealii::Tensor<1, dim>
 ExtendedIncrement<dim>::operator()(const dealii::Point<dim> &x) const
 {
@@ -22,7 +33,9 @@ ExtendedIncrement<dim>::operator()(const dealii::Point<dim> &x) const
   std::array<double, dim>      t;
   for (unsigned int d = 0; d < dim; ++d)
     {
-      const double s    = std::clamp((x[d] - first[d]) / spacing, 0., n_nodes[d] - 1.);
+      const double place = (x[d] - first[d]) / spacing;
+      // In this order what is no number has a place, too.
+      const double s    = place > 0. ? std::min(place, n_nodes[d] - 1.) : 0.;
       const int    base = std::min(static_cast<int>(s), n_nodes[d] - 2);
       t[d]              = s - base;
       stride[d]         = step;

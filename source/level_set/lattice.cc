@@ -232,6 +232,19 @@ interpolate_expansion(const Lattice<dim> &lattice, const Point<dim> &x)
 } // namespace
 
 template <int dim>
+bool
+is_number_of_nodes(std::size_t n, const std::array<int, dim> &n_nodes, const int fewest)
+{
+  for (const int nodes : n_nodes)
+    {
+      if (nodes < fewest || n % nodes != 0)
+        return false;
+      n /= nodes;
+    }
+  return n == 1;
+}
+
+template <int dim>
 Lattice<dim>::Lattice(const LatticeFrame<dim> &frame, const Index &lower, const Index &n_nodes)
     : lattice_frame(frame)
     , lower_node(lower)
@@ -448,6 +461,8 @@ Lattice<dim>::expansion(const Point<dim> &x, const unsigned int degree) const
     }
 }
 
+template bool is_number_of_nodes<2>(std::size_t, const std::array<int, 2> &, const int);
+template bool is_number_of_nodes<3>(std::size_t, const std::array<int, 3> &, const int);
 template class Lattice<2>;
 template class Lattice<3>;
 } // namespace scree

@@ -59,7 +59,8 @@ DiscreteProblem<dim>::Equations::Equations(DiscreteProblem &problem, State<dim> 
                         [&]() {
                           return Equilibrium<dim>(problem.space, problem.bodies,
                                                   *problem.kinematics, problem.boundary_terms,
-                                                  contact, problem.mass);
+                                                  contact, problem.mass,
+                                                  problem.parameters.has_inertia);
                         }))
     , solver(problem.parameters.linear_solver, problem.space, equilibrium, contact.points().size(),
              problem.timings)
@@ -92,13 +93,13 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
     , small_cuts(make_small_cut_treatment(space, parameters.discretization.ghost_penalty))
     , kinematics(make_kinematics(state, timings))
     , bulk(kinematics->bulk())
-    , mass(!parameters.has_inertia ? nullptr
-                                   : timed(timings, "mass",
-                                           [&]() {
-                                             return std::make_shared<const Mass<dim>>(
-                                               space, bodies, *small_cuts,
-                                               kinematics->mass_points(), parameters.lumps_mass);
-                                           }))
+    , mass(!parameters.has_mass ? nullptr
+                                : timed(timings, "mass",
+                                        [&]() {
+                                          return std::make_shared<const Mass<dim>>(
+                                            space, bodies, *small_cuts, kinematics->mass_points(),
+                                            parameters.lumps_mass);
+                                        }))
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",
                            [&]() {
                              return BoundaryTerms<dim>(space, level_set_nodes, quadrature, bodies,

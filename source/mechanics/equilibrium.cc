@@ -19,9 +19,10 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
                               const std::vector<Body<dim>> &bodies,
                               const Kinematics<dim>        &kinematics,
                               const BoundaryTerms<dim> &boundary_terms, ContactPoints<dim> &contact,
-                              const std::shared_ptr<const Mass<dim>> &mass)
+                              const std::shared_ptr<const Mass<dim>> &mass, const bool has_inertia)
     : kinematics(kinematics)
     , mass(mass)
+    , is_static(!mass || !has_inertia)
     , space(space)
     , bodies(bodies)
     , bulk(kinematics.bulk())
@@ -30,7 +31,7 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
     , supports(space, bodies, kinematics)
     , rigid(space, bodies, contact)
     , free(space, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite(),
-           mass != nullptr)
+           !is_static)
     , ledger(space, bodies, kinematics, boundary_terms, contact, supports, rigid)
     , seen_by_bulk(space)
 {

@@ -109,14 +109,13 @@ Equilibrium<dim>::set_drag(const double factor)
 }
 
 template <int dim>
-double
-Equilibrium<dim>::artificial_work(const Vector &du) const
+typename Equilibrium<dim>::Vector
+Equilibrium<dim>::artificial_forces(const Vector &du) const
 {
-  double work = 0.;
-  for (unsigned int i = 0; i < free_bodies().size(); ++i)
-    for (const DofIndex unknown : free.unknowns(i))
-      work += mass_factor * artificial_mass(unknown) * du(unknown) * du(unknown);
-  return dealii::Utilities::MPI::sum(work, space.grid.communicator());
+  Vector result(du);
+  result.scale(artificial_mass);
+  result *= mass_factor;
+  return result;
 }
 
 template <int dim>
@@ -239,23 +238,23 @@ Equilibrium<dim>::turn(Vector &u) const
   free.advance(du, artificial_mass, u);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                 \
-  template void                  Equilibrium<dim>::shorten(Vector &, const double) const;      \
-  template void                  Equilibrium<dim>::set_artificial_mass(const double);          \
-  template void                  Equilibrium<dim>::set_second_attempt(const bool);             \
-  template void                  Equilibrium<dim>::set_drag(const double);                     \
-  template double                Equilibrium<dim>::held_moment(const unsigned int) const;      \
-  template bool                  Equilibrium<dim>::is_geometric(const Vector &, double) const; \
-  template bool                  Equilibrium<dim>::turns_infinitesimally() const;              \
-  template bool                  Equilibrium<dim>::set_moved(const double, Vector &);          \
-  template void                  Equilibrium<dim>::set_up_artificial_mass();                   \
-  template void                  Equilibrium<dim>::advance(const Vector &, Vector &) const;    \
-  template void                  Equilibrium<dim>::turn(Vector &) const;                       \
-  template double                Equilibrium<dim>::artificial_work(const Vector &) const;      \
-  template std::vector<double>   Equilibrium<dim>::loads_on_free_bodies() const;               \
-  template std::vector<double>   Equilibrium<dim>::unbalanced_loads() const;                   \
-  template std::optional<double> Equilibrium<dim>::balance_rigid_motions(                      \
-    Vector &, const ContactHistory<dim> &, const bool) const;
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template void                     Equilibrium<dim>::shorten(Vector &, const double) const;      \
+  template void                     Equilibrium<dim>::set_artificial_mass(const double);          \
+  template void                     Equilibrium<dim>::set_second_attempt(const bool);             \
+  template void                     Equilibrium<dim>::set_drag(const double);                     \
+  template double                   Equilibrium<dim>::held_moment(const unsigned int) const;      \
+  template bool                     Equilibrium<dim>::is_geometric(const Vector &, double) const; \
+  template bool                     Equilibrium<dim>::turns_infinitesimally() const;              \
+  template bool                     Equilibrium<dim>::set_moved(const double, Vector &);          \
+  template void                     Equilibrium<dim>::set_up_artificial_mass();                   \
+  template void                     Equilibrium<dim>::advance(const Vector &, Vector &) const;    \
+  template void                     Equilibrium<dim>::turn(Vector &) const;                       \
+  template Equilibrium<dim>::Vector Equilibrium<dim>::artificial_forces(const Vector &) const;    \
+  template std::vector<double>      Equilibrium<dim>::loads_on_free_bodies() const;               \
+  template std::vector<double>      Equilibrium<dim>::unbalanced_loads() const;                   \
+  template std::optional<double>    Equilibrium<dim>::balance_rigid_motions(                      \
+       Vector &, const ContactHistory<dim> &, const bool) const;
 
 template void Equilibrium<2>::add_artificial_mass(Matrix &) const;
 template void Equilibrium<3>::add_artificial_mass(Matrix &) const;

@@ -85,8 +85,15 @@ Equilibrium<dim>::evaluated(const Vector &u) const
   Vector driving(internal_forces);
   reactions(driving);
   driving += applied_forces;
-  return {time,           u,       at_points(u),   loads,          dead_loads,
-          contact_forces, driving, kinetic_energy, mass ? 0. : 0.5};
+  return {time,
+          u,
+          at_points(u),
+          loads,
+          dead_loads,
+          contact_forces,
+          driving,
+          kinetic_energy,
+          is_static ? 0.5 : 0.};
 }
 
 template <int dim>
@@ -114,7 +121,7 @@ Equilibrium<dim>::start_step(const double time, const Vector &u, const ContactHi
       set_zero_on_prescribed(unbalanced);
     }
   ledger.start_step(evaluated(accepted), unbalanced, history, energies, driving);
-  if (mass)
+  if (!is_static)
     ledger.start_without_transfer(energies);
 }
 

@@ -42,7 +42,7 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
                             const StrongSupports<dim>    &supports,
                             const BoundaryTerms<dim>     &boundary_terms,
                             const ContactPoints<dim> &contact, const bool turns_finitely,
-                            const bool has_mass)
+                            const bool has_inertia)
     : bodies(bodies)
     , supports(supports)
     , boundary_terms(boundary_terms)
@@ -53,7 +53,7 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
 {
   const std::vector<Motions> motions(bodies.begin(), bodies.end());
   const auto                 held = resistance_of_supports(motions);
-  for (unsigned int b = 0; b < bodies.size() && !has_mass; ++b)
+  for (unsigned int b = 0; b < bodies.size() && !has_inertia; ++b)
     {
       const double      trace = held[b].trace();
       const DenseMatrix basis = trace == 0. ? DenseMatrix(dealii::IdentityMatrix(held[b].m()))

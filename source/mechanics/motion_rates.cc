@@ -38,7 +38,7 @@ rates_at_end(const DiscreteProblem<dim> &problem, const TimeScheme<dim> &scheme,
              const State<dim> &state, const typename Equilibrium<dim>::Vector &u, const double time)
 {
   const Equilibrium<dim> &equilibrium = problem.equilibrium();
-  if (!problem.mass)
+  if (!equilibrium.has_inertia())
     return scheme.rates(nullptr, state, u, u, time);
   Rates result
     = scheme.rates(problem.mass.get(), state, u, equilibrium.accelerations_by_contact(u), time);

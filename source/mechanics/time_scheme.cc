@@ -86,10 +86,11 @@ template <int dim>
 std::unique_ptr<const TimeScheme<dim>>
 make_time_scheme(const TimeSchemeParameters &parameters)
 {
+  const std::string name = parameters.is_static_stage ? "quasi-static" : parameters.scheme;
   for (const auto &scheme : time_schemes<dim>)
-    if (parameters.scheme == scheme.name)
+    if (name == scheme.name)
       return scheme.make(parameters);
-  AssertThrow(false, dealii::ExcMessage("unknown time scheme " + parameters.scheme));
+  AssertThrow(false, dealii::ExcMessage("unknown time scheme " + name));
   return nullptr;
 }
 

@@ -1,4 +1,3 @@
-#include <scree/solver/line_search.h>
 #include <scree/solver/linear_solver.h>
 #include <scree/solver/newton.h>
 
@@ -12,32 +11,24 @@ namespace scree
 namespace
 {
 // The constants that newton.h documents.
-constexpr double       armijo               = 1e-4;
-constexpr unsigned int max_halvings         = 8;
-constexpr double       good_reduction       = 0.3;
-constexpr double       work_reduction       = 0.8;
-constexpr unsigned int max_work_evaluations = 6;
-constexpr double       divergence_factor    = 1e8;
-constexpr double       round_off_factor     = 100;
-constexpr double       round_off_increment  = 1e-10;
-constexpr double       forcing_factor       = 0.9;
-constexpr double       forcing_safeguard    = 0.1;
-constexpr double       final_linear_factor  = 0.1;
-constexpr double       short_step           = 0.5;
-constexpr double       full_step            = 0.99;
-constexpr double       good_lagged_step     = 0.5;
-constexpr double       poor_step            = 4;
-constexpr double       first_mass           = 1e-4;
-constexpr double       smallest_mass        = 1e-9;
-constexpr double       largest_mass         = 0.1;
-constexpr double       mass_decay           = 0.1;
-constexpr double       mass_growth          = 4;
-constexpr double       energy_overshoot     = 0.5;
-constexpr double       energy_reduction     = 0.1;
-constexpr unsigned int max_energy_trials    = 16;
-constexpr unsigned int max_balances         = 6;
-constexpr unsigned int max_rising_balances  = 3;
-constexpr double       balance_reduction    = 0.1;
+constexpr double       divergence_factor   = 1e8;
+constexpr double       round_off_factor    = 100;
+constexpr double       round_off_increment = 1e-10;
+constexpr double       forcing_factor      = 0.9;
+constexpr double       forcing_safeguard   = 0.1;
+constexpr double       final_linear_factor = 0.1;
+constexpr double       short_step          = 0.5;
+constexpr double       full_step           = 0.99;
+constexpr double       good_lagged_step    = 0.5;
+constexpr double       poor_step           = 4;
+constexpr double       first_mass          = 1e-4;
+constexpr double       smallest_mass       = 1e-9;
+constexpr double       largest_mass        = 0.1;
+constexpr double       mass_decay          = 0.1;
+constexpr double       mass_growth         = 4;
+constexpr unsigned int max_balances        = 6;
+constexpr unsigned int max_rising_balances = 3;
+constexpr double       balance_reduction   = 0.1;
 
 const EnumNames<LineSearch> line_search_names
   = {{LineSearch::none, "none"}, {LineSearch::residual, "residual"}, {LineSearch::work, "work"}};
@@ -114,16 +105,6 @@ NewtonParameters::declare(const ParameterSection &section)
                 "work: shortens a step that overshoots, judged by the work of the residual on the "
                 "increment. residual: halves a step until the residual falls. none: full steps.");
 }
-
-/** A trial of the line search: the alpha, and the u and r there. */
-struct Newton::Step
-{
-  double       alpha       = 1;
-  unsigned int evaluations = 0;
-  double       norm        = 0;
-  Vector       u;
-  Vector       r;
-};
 
 /** What the next step is. */
 struct Newton::Progress
@@ -207,106 +188,10 @@ Newton::can_lag() const
 }
 
 void
-Newton::evaluate(Step &step, const double alpha, const Vector &u, const Vector &du) const
+Newton::begin_parts() const
 {
-  step.alpha = alpha;
-  step.u     = u;
-  if (hooks.advance)
-    {
-      Vector increment(du);
-      increment *= alpha;
-      hooks.advance(increment, step.u);
-    }
-  else
-    step.u.add(alpha, du);
-  hooks.residual(step.u, step.r);
-  step.norm = step.r.l2_norm();
-  ++step.evaluations;
-}
-
-Newton::Step
-Newton::search_residual(Step step, const Vector &u, const Vector &du, const double norm) const
-{
-  double     best_alpha = step.alpha, best_norm = step.norm;
-  const auto is_wanted = [&]() {
-    const bool is_enough = step.norm <= (1 - armijo * step.alpha) * norm;
-    return !is_enough || (step.norm <= best_norm && step.norm > good_reduction * norm);
-  };
-  for (unsigned int k = 0; k < max_halvings && is_wanted(); ++k)
-    {
-      evaluate(step, step.alpha / 2, u, du);
-      if (!(best_norm <= step.norm))
-        {
-          best_alpha = step.alpha;
-          best_norm  = step.norm;
-        }
-    }
-  if (step.alpha != best_alpha)
-    evaluate(step, best_alpha, u, du);
-  return step;
-}
-
-Newton::Step
-Newton::search_work(Step step, const Vector &u, const Vector &du, const double work) const
-{
-  // G has opposite signs at a and b; the Illinois variant halves the value of an end that stays.
-  double a = 0, work_a = work, b = step.alpha, work_b = step.r * du;
-  if (!(work_a * work_b < 0))
-    return step;
-  double last = work_b;
-  for (unsigned int k = 0;
-       k < max_work_evaluations && std::abs(last) > work_reduction * std::abs(work); ++k)
-    {
-      evaluate(step, (a * work_b - b * work_a) / (work_b - work_a), u, du);
-      last = step.r * du;
-      if (last * work_b < 0)
-        {
-          a      = b;
-          work_a = work_b;
-        }
-      else
-        work_a /= 2;
-      b      = step.alpha;
-      work_b = last;
-    }
-  return step;
-}
-
-Newton::Step
-Newton::search(const Vector &u, const Vector &du, const Vector &r, const double norm,
-               const LineSearch method) const
-{
-  Step step;
-  step.r.reinit(r, true);
-  evaluate(step, 1., u, du);
-  for (unsigned int k = 0; k < max_halvings && !std::isfinite(step.norm); ++k)
-    evaluate(step, step.alpha / 2, u, du);
-  if (!std::isfinite(step.norm) || method == LineSearch::none)
-    return step;
-  if (method == LineSearch::residual)
-    return search_residual(std::move(step), u, du, norm);
-  return search_work(std::move(step), u, du, r * du);
-}
-
-Newton::Step
-Newton::search_energy(const Vector &u, const Vector &du, const Vector &r) const
-{
-  Step step;
-  step.r.reinit(r, true);
-  evaluate(step, 1., u, du);
-  for (unsigned int k = 0; k < max_halvings && !std::isfinite(step.norm); ++k)
-    evaluate(step, step.alpha / 4, u, du);
-  const double mass = hooks.mass_work(du), start = r * du;
-  const auto   G = [&]() { return step.r * du - step.alpha * mass; };
-  if (const double after = G();
-      start > 0. && std::isfinite(step.norm) && after < -energy_overshoot * start)
-    find_zero(
-      [&](const double alpha) {
-        evaluate(step, alpha, u, du);
-        return G();
-      },
-      start, step.alpha, after, energy_reduction * start, max_energy_trials);
-  return step;
+  if (hooks.parts)
+    hooks.parts(true);
 }
 
 Newton::Step
@@ -315,6 +200,7 @@ Newton::lagged_step(const double mass, const double linear_tolerance, const Vect
 {
   hooks.lag(mass);
   hooks.residual(u, r); // the same r, another tangent
+  begin_parts();
   try
     {
       hooks.solve(u, r, linear_tolerance, du);
@@ -336,13 +222,14 @@ Newton::take_step(const double linear_tolerance, const double norm, const Vector
                   Vector &du, Progress &progress) const
 {
   const auto is_poor = [&](const Step &step) {
-    return can_lag() && step.norm > poor_step * norm && hooks.mass_work(du) > 0.;
+    return can_lag() && step.norm > poor_step * norm && hooks.mass(du) * du > 0.;
   };
   Step step;
   if (!progress.is_lagged)
     {
+      begin_parts();
       hooks.solve(u, r, linear_tolerance, du);
-      step = search(u, du, r, norm, parameters.line_search);
+      step = search(u, du, r, norm);
       if (!is_poor(step))
         return step;
       progress.is_lagged = true;
@@ -436,7 +323,7 @@ Newton::solve(Vector &u) const
       if (can_lag())
         {
           const double ratio = step.norm / iteration.residual;
-          progress.end_step(step.alpha, ratio, ratio > 1. && hooks.mass_work(du) > 0.);
+          progress.end_step(step.alpha, ratio, ratio > 1. && hooks.mass(du) * du > 0.);
         }
       balance_after(step, iteration.residual, progress);
       u                           = step.u;

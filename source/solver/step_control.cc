@@ -167,6 +167,8 @@ StepControl::record() const
 void
 StepControl::resume(const StepControlRecord &record)
 {
+  require(record.time >= 0., "the checkpoint", "its time cannot be: " + std::to_string(record.time),
+          "start the run anew");
   require(record.time <= parameters.end_time * (1. + 1e-12), "Time/End time",
           "the run has passed this time: it is at " + std::to_string(record.time),
           "choose a later end");

@@ -248,6 +248,13 @@ write_checkpoint_file(const std::string &directory, const unsigned int dimension
   return n_bytes;
 }
 
+bool
+has_checkpoint(const std::string &directory)
+{
+  return std::filesystem::exists(directory + "/checkpoint")
+         || std::filesystem::exists(directory + "/checkpoint.old");
+}
+
 CheckpointContents
 read_checkpoint_file(const std::string &directory, const unsigned int dimension)
 {

@@ -5,8 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
+#include <cmath>
 
 namespace scree
 {
@@ -73,6 +72,48 @@ require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
             "start the run anew");
 }
 
+/** The same of what contact remembers, which is searched for as well. */
+template <int dim>
+void
+require_sound(const ContactMemory<dim> &memory, const dealii::BoundingBox<dim> &box,
+              const std::string &directory)
+{
+  const auto [lower, upper] = box.get_boundary_points();
+  const double reach        = lower.distance(upper);
+  for (const std::size_t size :
+       {memory.body_a.size(), memory.body_b.size(), memory.normal.size(), memory.weight.size(),
+        memory.cell_size.size(), memory.tau.size(), memory.pressure.size()})
+    require_consistent(size == memory.size(), directory);
+  for (std::size_t i = 0; i < memory.size(); ++i)
+    require_consistent(memory.position[i].distance(box.center()) < reach && memory.cell_size[i] > 0.
+                         && memory.cell_size[i] < reach,
+                       directory);
+}
+
+/** That there is a motion of each body, as the next step asks for it. */
+template <int dim>
+void
+require_motions(const GatheredState<dim> &saved, const std::vector<Body<dim>> &bodies,
+                const std::string &directory)
+{
+  require_consistent(saved.last_step_size >= 0. && std::isfinite(saved.last_step_size), directory);
+  if (saved.last_step_size > 0.)
+    {
+      require_consistent(saved.increments_of_bodies.size() == bodies.size()
+                           && saved.increments_of_rigid.size() == bodies.size(),
+                         directory);
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        require_consistent(saved.increments_of_bodies[b].is_whole()
+                             && saved.increments_of_bodies[b].is_empty() == bodies[b].is_rigid(),
+                           directory);
+    }
+  require_consistent(!saved.has_inertia || saved.rates_of_rigid.size() == bodies.size(), directory);
+  const std::size_t n_rigid
+    = std::count_if(bodies.begin(), bodies.end(), [](const auto &body) { return body.is_rigid(); });
+  require_consistent(saved.step_end.driving.of_rigid.size() == n_rigid * n_rigid_components<dim>,
+                     directory);
+}
+
 template <int dim>
 typename GatheredState<dim>::Geometry
 saved_geometry(const Body<dim> &body, const bool is_reset)
@@ -102,10 +143,10 @@ restored_lattice(const LatticeFrame<dim> &frame, const typename Lattice<dim>::In
                  const typename Lattice<dim>::Index &n, const std::vector<double> &values,
                  const std::string &directory)
 {
-  require_consistent(
-    values.size()
-      == std::accumulate(n.begin(), n.end(), std::size_t(1), std::multiplies<std::size_t>()),
-    directory);
+  constexpr int farthest = 1 << 29; // what is near may be counted from there
+  require_consistent(is_number_of_nodes<dim>(values.size(), n, 4), directory);
+  for (const int node : lower)
+    require_consistent(node > -farthest && node < farthest, directory);
   Lattice<dim> result(frame, lower, n);
   result.values() = values;
   return result;
@@ -122,6 +163,10 @@ restore_geometry(const typename GatheredState<dim>::Geometry &saved, const bool 
   if (is_reset)
     geometry.initial_level_set = std::make_shared<const Lattice<dim>>(restored_lattice<dim>(
       frame, saved.initial_lower, saved.initial_n_nodes, saved.initial_level_set, directory));
+  const auto [lower, upper] = saved.box.get_boundary_points();
+  for (unsigned int d = 0; d < dim; ++d)
+    require_consistent(lower[d] <= upper[d] && std::isfinite(upper[d] - lower[d]), directory);
+  require_consistent(saved.displacement.is_whole(), directory);
   geometry.box          = saved.box;
   geometry.displacement = saved.displacement;
   if (!saved.has_shape)
@@ -222,8 +267,8 @@ void
 restore_fixed(const GatheredState<dim> &saved, const DisplacementSpace<dim> &space,
               const ContactPoints<dim> &contact, const std::string &directory, State<dim> &state)
 {
-  const unsigned int n_vectors = saved.nodes.row_size() / dim;
-  require_consistent(n_vectors == (saved.has_inertia ? 4 : 2)
+  const unsigned int n_vectors = saved.has_inertia ? 4 : 2;
+  require_consistent(saved.nodes.is_whole(n_vectors * dim) && saved.contact.is_whole(2 * dim + 2)
                        && saved.trailing.size() == n_vectors * space.n_trailing(),
                      directory);
   const auto vectors = vectors_of(state, saved.has_inertia);
@@ -274,6 +319,8 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
       for (std::size_t i = 0; i < saved.points[p].size(); i += n_values)
         state.points.unpack(&saved.points[p][i]);
   require_sound(state.points, state.bodies.size(), background, directory);
+  require_sound(saved.step_end.contact, background, directory);
+  require_motions(saved, state.bodies, directory);
   state.step_end   = saved.step_end;
   state.start_gaps = saved.start_gaps;
   if (rank > 0)

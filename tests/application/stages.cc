@@ -7,6 +7,7 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/expression.h>
 
+#include <limits>
 #include <string>
 
 using namespace scree;
@@ -295,6 +296,43 @@ TEST(Stages, ChangeFrictionFromTheirBeginningOn)
   record.ends.push_back(2.);
   EXPECT_FALSE(set_friction(p.stages, record, contact));
   EXPECT_EQ(contact.laws[0].friction_coefficient, 0.4);
+}
+
+TEST(Stages, RefuseTheRecordOfAnotherRun)
+{
+  const Parameters<2> p      = staged(press_hold_shear);
+  const auto          accept = [&p](const StageRecord<2> &record) {
+    EXPECT_NO_THROW(StageControl<2>(p.stages, record, MPI_COMM_SELF));
+  };
+  const auto refuse = [&p](const StageRecord<2> &record) {
+    EXPECT_THROW(StageControl<2>(p.stages, record, MPI_COMM_SELF), UserError);
+  };
+  StageRecord<2> record;
+  accept(record);
+  record.ends = {2., 3.};
+  record.starts.resize(3);
+  record.starts[2]["wall"] = {{0., 1., 0.}};
+  accept(record);
+
+  StageRecord<2> wrong = record;
+  wrong.ends           = {2., 3., 3.5, 4.};
+  refuse(wrong);
+  wrong.ends = {3., 2.};
+  refuse(wrong);
+  wrong.ends = {std::numeric_limits<double>::quiet_NaN()};
+  refuse(wrong);
+  wrong = record;
+  wrong.starts[2].clear();
+  refuse(wrong);
+  wrong                      = record;
+  wrong.starts[2]["wall"][1] = std::numeric_limits<double>::infinity();
+  refuse(wrong);
+  wrong = record;
+  wrong.starts.resize(4);
+  refuse(wrong);
+  wrong         = record;
+  wrong.lengths = {1., 1., 1.};
+  refuse(wrong);
 }
 
 TEST(Stages, WithoutThemNothingChanges)

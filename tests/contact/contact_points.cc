@@ -234,6 +234,40 @@ TEST(ContactPoints, HistoryIsWhatWasEvaluated)
     }
 }
 
+// Freezing the bounds of friction changes no traction at the displacement where that is done, also
+// where all points are made to stick.
+TEST(ContactPoints, FrozenBoundsKeepTractions)
+{
+  const CutBodies<2> model(two_half_planes(0., 0.01, 1));
+  auto               pairs          = pairs_with(model, "coulomb");
+  pairs[0].law.friction_coefficient = 0.5;
+  ContactPoints<2> contact(model.bodies, pairs,
+                           level_set_surface(*model.space, *model.level_set_nodes, model.bodies,
+                                             pairs,
+                                             CutBodies<2>::shift * model.grid.finest_size()));
+  const auto       history = contact.initial_history();
+  const Vector u = displacement<2>(model, contact, [](const unsigned int body, const Point<2> &x) {
+    return body == 0 ? Tensor<1, 2>() : Tensor<1, 2>({0.002 * (1. + x[0]), -0.02});
+  });
+  for (const bool sticks : {false, true})
+    {
+      contact.laws().set_sticks(sticks);
+      contact.evaluate(u, history);
+      const auto before = contact.responses();
+      contact.laws().freeze(contact.points(), before);
+      contact.evaluate(u, history);
+      double largest = 0.;
+      for (unsigned int i = 0; i < contact.points().size(); ++i)
+        {
+          EXPECT_NEAR((contact.responses()[i].tau - before[i].tau).norm(), 0., 1e-12);
+          EXPECT_EQ(contact.responses()[i].pressure, before[i].pressure);
+          largest = std::max(largest, before[i].tau.norm());
+        }
+      EXPECT_GT(largest, 0.);
+      contact.laws().unfreeze();
+    }
+}
+
 TEST(ContactPoints, CellsAroundContactHaveOneLevel)
 {
   const CutBodies<2> model(

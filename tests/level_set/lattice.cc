@@ -190,5 +190,16 @@ TEST(Lattice, NodalValuesAreRoundedToTheNode)
   const Point<2> node = lattice.node({{3, -7}});
   EXPECT_EQ(lattice.nodal_value(node + Point<2>(1e-12, -1e-12)), lattice({{3, -7}}));
 }
+
+TEST(Lattice, NumbersOfNodesAreToldFromOthers)
+{
+  EXPECT_TRUE(is_number_of_nodes<2>(20, {{4, 5}}, 4));
+  EXPECT_FALSE(is_number_of_nodes<2>(20, {{2, 10}}, 4));
+  EXPECT_FALSE(is_number_of_nodes<2>(15, {{-3, -5}}, 2));
+  EXPECT_FALSE(is_number_of_nodes<2>(0, {{0, 4}}, 2));
+  EXPECT_FALSE(is_number_of_nodes<3>(60, {{4, 5, 4}}, 2));
+  // The product is 0 modulo 2^64.
+  EXPECT_FALSE(is_number_of_nodes<3>(0, {{1 << 30, 1 << 30, 1 << 4}}, 2));
+}
 } // namespace
 } // namespace scree

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <scree/base/exceptions.h>
+#include <scree/mechanics/contact_groups.h>
 #include <scree/output/long_tables.h>
 
 #include <cmath>
@@ -113,6 +114,9 @@ collectives_of_iteration(const unsigned int n)
   equilibrium.is_symmetric();
   equilibrium.force_scale();
   equilibrium.round_off();
+  ContactGroups<2> groups(*model.cut.space, model.cut.bodies, model.contact);
+  groups.add();
+  groups.partition();
   equilibrium.shorten(du, 0.1);
   const unsigned int result = n_collectives;
   EXPECT_NEAR(du.linfty_norm(), 0.1, 1e-12);

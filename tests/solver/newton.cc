@@ -133,6 +133,46 @@ TEST(Newton, WorkLineSearchFindsTheContactOfASpring)
   EXPECT_LE(largest[1], 10.);
 }
 
+// A spring that finds a stiff stop, and a load on a spring that nothing couples to it: the step of
+// the one is shortened, that of the other is not.
+TEST(Newton, PartsHaveLineSearchesOfTheirOwn)
+{
+  const double  k = 1, load = 10, eps = 1e4, g = 0.1;
+  Newton::Hooks hooks;
+  double        second = 0.;
+  hooks.residual       = [&](const Vector &u, Vector &r) {
+    r(0)   = load - k * u(0) - eps * std::max(u(0) - g, 0.);
+    r(1)   = load - k * u(1);
+    second = u(1);
+  };
+  hooks.solve = [&](const Vector &u, const Vector &r, double, Vector &du) {
+    du(0) = r(0) / (k + (u(0) > g ? eps : 0.));
+    du(1) = r(1) / k;
+  };
+  hooks.reference = []() { return 10.; };
+  for (const bool has_parts : {true, false})
+    {
+      unsigned int n_begun = 0;
+      hooks.parts          = [&](const bool begins) {
+        n_begun += begins ? 1 : 0;
+        return has_parts ? Partition{2, {0, 1}} : Partition();
+      };
+      std::vector<double> seconds, lengths;
+      hooks.observe = [&](const NewtonIteration &iteration) {
+        seconds.push_back(second);
+        lengths.push_back(iteration.step_length);
+      };
+      Vector             u      = vector({0., 0.});
+      const NewtonResult result = Newton(with(LineSearch::work), hooks).solve(u);
+      ASSERT_TRUE(result.converged()) << result.message;
+      EXPECT_NEAR(u(0), (load + eps * g) / (k + eps), 1e-9);
+      EXPECT_NEAR(u(1), load / k, 1e-9);
+      EXPECT_EQ(n_begun, result.iterations);
+      EXPECT_LT(lengths[1], 1.);
+      EXPECT_EQ(std::abs(seconds[1] - load / k) < 1e-12, has_parts);
+    }
+}
+
 TEST(Newton, LineSearchEndsACycle)
 {
   // f = sign(u) sqrt|u| sends u to -u for ever.
@@ -163,11 +203,13 @@ loose_body(std::vector<double> &masses)
   };
   hooks.reference = []() { return 1.; };
   hooks.lag       = [&](const std::optional<double> s) { masses.push_back(s.value_or(0.)); };
-  hooks.mass_work = [&](const Vector &du) {
+  hooks.mass      = [&](const Vector &du) {
     double last = 0.;
     for (const double mass : masses)
       last = mass > 0. ? mass : last;
-    return (last > 0. ? last : 1e-6) * du.norm_sqr();
+    Vector result(du);
+    result *= last > 0. ? last : 1e-6;
+    return result;
   };
   return hooks;
 }
@@ -209,8 +251,12 @@ TEST(Newton, BalancesOnlyWhereTheResidualAllows)
   Newton::Hooks hooks     = two_equations();
   unsigned int  n_balance = 0;
   hooks.lag               = [](std::optional<double>) {};
-  hooks.mass_work         = [](const Vector &) { return 0.; };
-  hooks.balance           = [&](Vector &u) {
+  hooks.mass              = [](const Vector &du) {
+    Vector result(du);
+    result = 0.;
+    return result;
+  };
+  hooks.balance = [&](Vector &u) {
     if (u(0) == 1.3)
       return false;
     ++n_balance;
@@ -361,10 +407,10 @@ TEST(Newton, FailuresAreTold)
   EXPECT_EQ(result.iterations, 0u);
 
   // No lagged step goes on from what is not finite.
-  hooks           = scalar([&](double u) { return u == 0. ? 1. : nan(u); }, one);
-  hooks.lag       = [](std::optional<double>) {};
-  hooks.mass_work = [](const Vector &) { return 1.; };
-  u               = vector({0.});
+  hooks      = scalar([&](double u) { return u == 0. ? 1. : nan(u); }, one);
+  hooks.lag  = [](std::optional<double>) {};
+  hooks.mass = [](const Vector &du) { return du; };
+  u          = vector({0.});
   EXPECT_EQ(Newton(NewtonParameters(), hooks).solve(u).status, NewtonStatus::diverged);
 
   // u^2 + 1 has no zero.

@@ -6,6 +6,7 @@
 #include <scree/solver/step_control.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace scree
@@ -210,6 +211,19 @@ TEST(StepControl, ParametersMayChangeBetweenRecordAndResumption)
   EXPECT_THROW(other_steps.resume(failed.record()), UserError);
   StepControl over(times(0.05, 1, 1.));
   EXPECT_THROW(over.resume(failed.record()), UserError);
+}
+
+TEST(StepControl, ARecordOfNoTimeIsRefused)
+{
+  auto parameters          = times(1., 2, 1.);
+  parameters.nominal_times = {0.5, 1.};
+  for (const double time : {-1., -1e300, std::numeric_limits<double>::quiet_NaN()})
+    {
+      StepControl       control(parameters);
+      StepControlRecord record = control.record();
+      record.time              = time;
+      EXPECT_THROW(control.resume(record), UserError);
+    }
 }
 } // namespace
 } // namespace scree

@@ -203,7 +203,9 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOthersAlone)
 }
 TEST_F(CheckpointFile, WhateverByteIsDamagedTheOneBeforeIsUsed)
 {
+  EXPECT_FALSE(has_checkpoint(directory));
   write("first");
+  EXPECT_TRUE(has_checkpoint(directory));
   write("second");
   const std::string good = bytes(), older = bytes("checkpoint.old");
   for (std::size_t i = 0; i < good.size(); ++i)

@@ -67,6 +67,8 @@ TEST(PlacedValues, AnArchiveGivesThemBack)
   boost::archive::binary_iarchive archive(bytes);
   archive >> values;
   expect_rows(values, 2);
+  EXPECT_TRUE(values.is_whole(2));
+  EXPECT_FALSE(values.is_whole(1));
 }
 } // namespace
 } // namespace scree

@@ -54,6 +54,12 @@ public:
     return parameters.moving.is_moving;
   }
 
+  /** Whether bodies have inertia in the present stage. Their Mass they have in all stages. */
+  bool has_inertia() const
+  {
+    return parameters.time_scheme.has_inertia() && !parameters.time_scheme.is_static_stage;
+  }
+
   /** Whether pairs are found anew in every step: there are many on a moving geometry. */
   bool pairs_change() const
   {
@@ -94,9 +100,9 @@ public:
   void take_back(State<dim> &&before, const double step_size);
 
   /**
-   * Takes what drives the rigid bodies from now on, and friction, from the parameters (collective).
-   * Where other components are free than before, or friction changes, the discrete problem is made
-   * anew.
+   * Takes what drives the rigid bodies from now on, friction, and whether there is inertia, from
+   * the parameters (collective). Where other components are free than before, or friction changes,
+   * the discrete problem is made anew. Where inertia begins, so does the initial motion.
    */
   void begin_stage(const bool friction_changes, const double step_size);
 
@@ -138,8 +144,11 @@ private:
   void start_step();
   /** Sets the displacements of rigid bodies to their poses. */
   void set_rigid_rows();
-  /** With inertia: the initial velocities, and the accelerations that belong to them. */
+  /** With inertia: the initial velocities, and the accelerations that belong to them; all that the
+   * bodies then have is external work, but for what they have had before. */
   void start_motion(const double step_size);
+  /** With inertia on a moving geometry: those of the bodies for the next grid. */
+  void keep_rates_of_rigid();
   /** With inertia on a moving geometry: velocities and accelerations of points and rigid bodies as
    * fields on the new grid. */
   void fit_rates();
@@ -147,15 +156,15 @@ private:
    * returns the number of islands. */
   unsigned int move_bodies(const Vector &ghosted);
 
-  const Parameters<dim>                       &parameters;
-  const MPI_Comm                               communicator;
-  RunLog                                      &run_log;
-  const std::unique_ptr<const TimeScheme<dim>> scheme;
-  std::unique_ptr<BackgroundGrid<dim>>         grid;
-  State<dim>                                   current;
-  bool                                         pairs_are_many = false;
-  bool                                         is_reset       = false; //!< in the course of the run
-  std::vector<ContactPair>                     pairs;
-  std::unique_ptr<DiscreteProblem<dim>>        discrete_problem;
+  const Parameters<dim>                 &parameters;
+  const MPI_Comm                         communicator;
+  RunLog                                &run_log;
+  std::unique_ptr<const TimeScheme<dim>> scheme;
+  std::unique_ptr<BackgroundGrid<dim>>   grid;
+  State<dim>                             current;
+  bool                                   pairs_are_many = false;
+  bool                                   is_reset       = false; //!< in the course of the run
+  std::vector<ContactPair>               pairs;
+  std::unique_ptr<DiscreteProblem<dim>>  discrete_problem;
 };
 } // namespace scree

@@ -80,7 +80,9 @@ private:
   void save_if_due();
   /** Saves and @throws Interrupted if a signal asked for it (collective). */
   void end_if_interrupted();
-  void finish();
+  /** How to go on with a run that ends early. */
+  std::string way_on() const;
+  void        finish();
   /** What is prescribed, in the first step, half way and at the end, is possible and finite. */
   void            require_prescribable();
   Checkpoint<dim> collect() const;

@@ -40,7 +40,8 @@ struct StageParameters
   unsigned int                            steps    = 1;  //!< nominal ones, >= 1
   std::string                             until; //!< a StopRelation that ends it; empty: none
   bool                                    resets = false; //!< it begins free of stress and strain
-  std::map<std::string, StageMotion<dim>> bodies;         //!< by the name of the rigid body
+  bool                                    is_static = false; //!< whatever the scheme of the run
+  std::map<std::string, StageMotion<dim>> bodies;            //!< by the name of the rigid body
   std::map<std::string, double>           friction; //!< coefficients by the name of the contact law
 };
 
@@ -66,9 +67,10 @@ struct StageRecord
 };
 
 /**
- * Reads section Stages. Recorded as problems: bodies that do not exist, are deformable, or of which
- * nothing is said, or motion and load of the same component; formulas that are not zero at t = 0;
- * relations that are none; contact laws that do not exist or have no friction coefficient.
+ * Reads section Stages. Recorded as problems: stages without inertia after one with it; bodies that
+ * do not exist, are deformable, or of which nothing is said, or motion and load of the same
+ * component; formulas that are not zero at t = 0; relations that are none; contact laws that do not
+ * exist or have no friction coefficient.
  *
  * @param is_rigid whether a body of the materials of the run is rigid, by its name
  */
@@ -103,6 +105,15 @@ void set_motions(const std::vector<StageParameters<dim>> &stages, const StageRec
 /** Whether a load drives a component of the body in a stage. */
 template <int dim>
 bool is_ever_free(const std::vector<StageParameters<dim>> &stages, const std::string &body);
+
+/** Whether the stage that a run has reached is one without inertia. */
+template <int dim>
+bool is_static(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim> &record);
+
+/** @throws UserError if a checkpoint's record is not of a run through these stages */
+template <int dim>
+void require_record_of(const std::vector<StageParameters<dim>> &stages,
+                       const StageRecord<dim>                  &record);
 
 /** Friction as the stages that have begun have left it. @return whether it is not as it was */
 template <int dim>

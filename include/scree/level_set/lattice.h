@@ -26,6 +26,10 @@ struct LatticeFrame
   dealii::BoundingBox<dim> box;     // the background box, which clips the lattices
 };
 
+/** Whether a lattice of `n_nodes`, at least `fewest` per direction, has so many in all. */
+template <int dim>
+bool is_number_of_nodes(std::size_t n, const std::array<int, dim> &n_nodes, const int fewest);
+
 /** Value and derivatives of a level set at a point. */
 template <int dim>
 struct LevelSetExpansion

@@ -19,7 +19,8 @@ struct ProblemParameters
   const EnforcementParameters    &enforcement;
   const MovingGeometryParameters &moving;
   const LinearSolverParameters   &linear_solver;
-  bool                            has_inertia = false;
+  bool                            has_mass    = false;
+  bool                            has_inertia = false; //!< now, with a mass
   bool                            lumps_mass  = false;
 };
 

@@ -34,10 +34,12 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  /** @param mass of runs with inertia, which holds the bodies that nothing else does; else null */
+  /** @param mass of runs with inertia, else null; @param has_inertia it acts now, and holds bodies
+   */
   Equilibrium(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
               const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
-              ContactPoints<dim> &contact, const std::shared_ptr<const Mass<dim>> &mass = nullptr);
+              ContactPoints<dim> &contact, const std::shared_ptr<const Mass<dim>> &mass = nullptr,
+              const bool has_inertia = true);
 
   /**
    * Starts a step with equations of its own at the state `u` of time `time`: zero but for rigid
@@ -112,9 +114,8 @@ public:
   /** Sets the artificial mass in the tangent, `factor` E/L^2 per volume, L half the body's size. */
   void set_artificial_mass(const double factor);
   /** Free bodies move against `factor` times that mass times u less the accepted one. */
-  void set_drag(const double factor);
-  /** du . M du (collective). */
-  double artificial_work(const Vector &du) const;
+  void   set_drag(const double factor);
+  Vector artificial_forces(const Vector &du) const; //!< M du
   /** u += du, or FreeBodies::advance() where free bodies turn finitely (collective). */
   void advance(const Vector &du, Vector &u) const;
 
@@ -185,9 +186,9 @@ public:
   /** Energies of the accepted state. */
   const Energies &energies() const;
 
-  const Kinematics<dim> &kinematics;
-  /** Of runs with inertia, else null. */
-  const std::shared_ptr<const Mass<dim>> mass;
+  const Kinematics<dim>                 &kinematics;
+  const std::shared_ptr<const Mass<dim>> mass;      //!< of runs with inertia, else null
+  const bool                             is_static; //!< nothing has inertia now
 
 private:
   void set_up_matrices();
@@ -233,11 +234,9 @@ private:
   Vector              ghosted;         //!< u of the last residual() with ghosts
   PointEvaluator<dim> seen_by_bulk;    //!< what the bulk sees of it
   dealii::IndexSet    ghosted_dofs;
-  double              time              = 0.;
-  bool                is_driven         = true; //!< forces act on rigid bodies
-  double              drag              = 0.;
-  double              kinetic_energy    = 0.;
+  double              time = 0., drag = 0., kinetic_energy = 0.;
   double              mass_factor       = default_mass_factor;
+  bool                is_driven         = true; //!< forces act on rigid bodies
   bool                is_second_attempt = false;
   bool                are_moments_whole = false;         //!< held moments, not scaled down
   std::vector<double> held_moments;                      //!< of the last residual(), by body

@@ -55,10 +55,10 @@ public:
     double      factor = 1.; //!< they were scaled by
   };
 
-  /** @param has_mass there are none: inertia holds them */
+  /** @param has_inertia there are none: inertia holds them */
   FreeBodies(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
              const StrongSupports<dim> &supports, const BoundaryTerms<dim> &boundary_terms,
-             const ContactPoints<dim> &contact, const bool turns_finitely, const bool has_mass);
+             const ContactPoints<dim> &contact, const bool turns_finitely, const bool has_inertia);
 
   /** Bodies that supports alone do not hold. */
   const std::vector<FreeMotion> &motions() const

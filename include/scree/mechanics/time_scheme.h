@@ -45,7 +45,7 @@ public:
 /** The names that TimeSchemeParameters::scheme may have. */
 std::vector<std::string> time_scheme_names();
 
-/** The scheme of a run. */
+/** The scheme of the present stage of a run. */
 template <int dim>
 std::unique_ptr<const TimeScheme<dim>> make_time_scheme(const TimeSchemeParameters &parameters);
 } // namespace scree

@@ -15,7 +15,9 @@ struct TimeSchemeParameters
   double      spectral_radius = 0.8; //!< of generalized alpha, at infinite frequency
   double      flip_share      = 1.;  //!< 1: points get increments of the velocity; 0: the velocity
   bool        lumps_mass      = false;
+  bool        is_static_stage = false; //!< bodies have mass, but no inertia in the present stage
 
+  /** Of the run: in some stage. */
   bool has_inertia() const
   {
     return scheme != "quasi-static";

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <scree/parameters/section.h>
+#include <scree/solver/newton_result.h>
+#include <scree/solver/partition.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -69,39 +71,6 @@ struct NewtonIteration
   unsigned int extra_evaluations = 0;
 };
 
-/** Why Newton's method ended. */
-enum class NewtonStatus
-{
-  converged,
-  converged_at_round_off,
-  converged_at_standstill, //!< Hooks::is_in_balance
-  max_iterations,
-  diverged,
-  linear_solver_failure,
-  interrupted //!< Hooks::is_interrupted
-};
-
-/** The outcome of Newton's method. */
-struct NewtonResult
-{
-  NewtonStatus status = NewtonStatus::max_iterations;
-
-  /** Number of linear systems solved (or tried). */
-  unsigned int iterations = 0;
-
-  /** |r|_2 at the start and after each iteration. */
-  std::vector<double> residuals;
-
-  /** What happened, in a few words with numbers. */
-  std::string message;
-
-  bool converged() const
-  {
-    return status == NewtonStatus::converged || status == NewtonStatus::converged_at_round_off
-           || status == NewtonStatus::converged_at_standstill;
-  }
-};
-
 /**
  * Newton's method for r(u) = 0 with r = f_ext - f_int and the tangent K = -dr/du:
  *
@@ -110,13 +79,11 @@ struct NewtonResult
  * It knows vectors only. All of them are distributed alike, without ghost entries.
  *
  * *Convergence:* |r|_2 <= relative tolerance * reference + absolute tolerance, where a hook
- * supplies the reference, a norm of forces at the present u. The size of du alone never ends the
- * iteration. A residual that round-off keeps above the tolerance is accepted
- * (converged_at_round_off) if it is at most 100 times the tolerance, did not fall to half in either
- * of the last two iterations, and the last |du|_2 was at most 1e-10 |u|_2; or if it did not
- * fall either and a hook says that only the accuracy of the geometry is left; or if none of the
- * last 8 iterations came below half of what was reached before, the last one stands within twice
- * of it, and a hook says that all is in balance (converged_at_standstill).
+ * supplies the reference, a norm of forces at the present u. What did not fall to half in either of
+ * the last two iterations is accepted (converged_at_round_off) if it is at most 100 times the
+ * tolerance and the last |du|_2 was at most 1e-10 |u|_2, or if a hook says that only the accuracy
+ * of the geometry is left. What did not fall below half in 8 iterations, and is within twice of the
+ * least, is accepted (converged_at_standstill) if a hook says that all is in balance.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -124,7 +91,9 @@ struct NewtonResult
  * G(alpha) = r(u + alpha du) . du: where G(1) has the opposite sign of G(0) and |G(1)| > 0.8
  * |G(0)|, the step went too far, and a zero of G is enclosed by the Illinois variant of regula
  * falsi until |G| <= 0.8 |G(0)|, with 6 more evaluations at most (Matthies, Strang, Int. J. Numer.
- * Meth. Engng 14, 1979, 1613-1626). In all cases a step to a residual that is not finite is halved.
+ * Meth. Engng 14, 1979, 1613-1626). Parts of the unknowns between which no forces act, at u and at
+ * the end of the full step, have a G and an alpha each. In all cases a step to a residual that is
+ * not finite is halved.
  *
  * *Lagged friction:* the tangent of what slides does not resist it and sends single bodies far
  * beyond where they find hold, and a search shortens the step of all. After a step of alpha < 1/2
@@ -176,16 +145,15 @@ public:
     /** u += du, or along a curve that begins with du; may be empty. */
     std::function<void(const Vector &du, Vector &u)> advance;
 
-    /** Moves u, that of the last `residual`, to where the forces on what moves freely balance;
-     * false: it stays. May be empty. */
+    /** Moves the u of the last `residual` to where forces on what moves freely balance; false: it
+     * stays. May be empty. */
     std::function<bool(Vector &u)> balance;
 
-    /** Whether `r`, that of the last `residual`, which ceased to fall, is below the tolerance but
-     * for what the accuracy of the geometry leaves. May be empty. */
+    /** Whether `r`, that of the last `residual`, is below the tolerance but for what the accuracy
+     * of the geometry leaves. May be empty. */
     std::function<bool(const Vector &r, double tolerance)> is_geometric;
 
-    /** Whether u, that of the last `residual`, from which |r| does not fall any more, is one of
-     * balance for its user. May be empty. */
+    /** Whether all is in balance at the u of the last `residual`. May be empty. */
     std::function<bool(const Vector &u, double residual)> is_in_balance;
 
     /** A norm of forces, in the unit of r, at the u of the last call of `residual`. */
@@ -203,8 +171,14 @@ public:
      */
     std::function<void(std::optional<double> s)> lag;
 
-    /** s du . M du with the s of the last lagged step; needed with `lag`. */
-    std::function<double(const Vector &du)> mass_work;
+    /** s M du with the s of the last lagged step; needed with `lag`. */
+    std::function<Vector(const Vector &du)> mass;
+
+    /**
+     * Parts of the unknowns on which no forces from others act at the u of the last residual()
+     * and of all back to where it was called with `begins` (collective). May be empty.
+     */
+    std::function<Partition(const bool begins)> parts;
   };
 
   /** Keeps copies of both. */
@@ -215,7 +189,16 @@ public:
   NewtonResult solve(Vector &u) const;
 
 private:
-  struct Step;
+  /** A trial of the line search: the alpha, and the u and r there. */
+  struct Step
+  {
+    double       alpha       = 1; //!< of parts, the mean by their |r|^2
+    unsigned int evaluations = 0;
+    double       norm        = 0;
+    Vector       u;
+    Vector       r;
+  };
+  struct Search;
   struct Progress;
   struct End;
 
@@ -235,12 +218,19 @@ private:
 
   Step search_energy(const Vector &u, const Vector &du, const Vector &r) const;
 
-  Step search(const Vector &u, const Vector &du, const Vector &r, const double norm,
-              const LineSearch method) const;
+  Step search(const Vector &u, const Vector &du, const Vector &r, const double norm) const;
+
+  /** The step of alpha = 1, or the longest one tried where r is finite. */
+  Step whole_step(const Vector &u, const Vector &du, const double shortening) const;
 
   Step search_residual(Step step, const Vector &u, const Vector &du, const double norm) const;
 
-  Step search_work(Step step, const Vector &u, const Vector &du, const double work) const;
+  /** Looks for zeros of the G of all parts at once. @param mass_du s M du, null: s = 0 */
+  Step search_zeros(const Search &search, const Vector &u, const Vector &du, const Vector &r,
+                    const Vector *mass_du) const;
+
+  /** Begins to note which parts act on each other. */
+  void begin_parts() const;
 
   /** Hooks::balance until it leaves u; whether it moved it. r is r(u) before and after. */
   bool balance(Vector &u, Vector &r) const;

@@ -24,6 +24,9 @@ namespace scree
 std::size_t write_checkpoint_file(const std::string &directory, const unsigned int dimension,
                                   const std::function<void(std::ostream &)> &write_contents);
 
+/** Whether a directory holds one, damaged or not. */
+bool has_checkpoint(const std::string &directory);
+
 /** What is read of the checkpoints of a directory. */
 struct CheckpointContents
 {

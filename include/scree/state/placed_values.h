@@ -51,6 +51,12 @@ public:
     return n_values;
   }
 
+  /** Whether each place has a row of `n` numbers: of what comes from a file it need not have. */
+  bool is_whole(const unsigned int n) const
+  {
+    return n_values == n && values.size() == places.size() * n_values;
+  }
+
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
