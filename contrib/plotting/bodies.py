@@ -10,7 +10,7 @@ from .style import COLOURS, RIGID, figure_for, nice_number_below, save, short
 from .surface import draw_section, draw_surface
 
 LABELS = {"von_mises": "von Mises stress", "displacement_magnitude": "displacement",
-          "plastic_strain": "equivalent plastic strain"}
+          "plastic_strain": "equivalent plastic strain", "plastic_zone": "plastic zone (1: has yielded)"}
 
 
 def outline(mesh):
@@ -197,7 +197,8 @@ class BodyPicture:
         values = mesh.field(field)
         # Rigid bodies have no stress; they are grey.
         self.shown = ~mesh.is_rigid if not field.startswith("displacement") else np.ones(len(values), dtype=bool)
-        self.values = values if is_raw else recovered(mesh, values)
+        # A zone has an edge, which means would blur.
+        self.values = values if is_raw or field == "plastic_zone" else recovered(mesh, values)
         coloured = self.values[self.shown] if self.shown.any() else np.zeros(1)
         self.extremes = coloured.min(), coloured.max()
         self.limits = range_of_colours or limits(coloured)

@@ -29,6 +29,7 @@ start_from_here(MaterialPoints<dim> &points)
       points.reference_position[i]   = points.position[i];
       points.deformation_gradient[i] = dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
       points.stress[i]               = 0.;
+      points.out_of_plane_stress[i]  = 0.;
       if (points.n_internal() > 0)
         keep_hardening(&points.internal[i * points.n_internal()]);
     }

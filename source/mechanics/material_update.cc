@@ -89,6 +89,8 @@ moved_points(const MaterialPoints<dim> &old_points, const std::vector<PointInCel
           for (unsigned int d = 0; d < dim; ++d)
             for (unsigned int e = d; e < dim; ++e)
               points.stress[p][d][e] = responses[i].cauchy[d][e];
+          if (dim == 2)
+            points.out_of_plane_stress[p] = responses[i].cauchy[2][2];
           if (points.n_internal() > 0)
             store_internal(law, law.finish(histories[p], F_D[i], responses[i]),
                            &points.internal[p * points.n_internal()]);

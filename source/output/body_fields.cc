@@ -7,21 +7,28 @@
 namespace scree
 {
 template <int dim>
-BodyFields<dim>::BodyFields(const FieldParameters &parameters, const bool with_velocity,
-                            const bool with_plastic_strain)
+BodyFields<dim>::BodyFields(const FieldParameters &parameters, const FieldsOfRun &of_run)
 {
   add_vector("displacement", Quantity::length,
              [](const Sample &sample) { return sample.bulk.displacement; });
-  if (with_velocity)
+  if (of_run.velocity)
     add_vector("velocity", Quantity::velocity,
                [](const Sample &sample) { return sample.velocity; });
   if (parameters.has("stress"))
     add_stresses();
   if (parameters.has("strain"))
     add_tensor("strain", Quantity::number, [](const Sample &sample) { return sample.bulk.strain; });
-  if (parameters.has("plastic strain") && with_plastic_strain)
+  if (parameters.has("plastic strain") && of_run.plastic_strain)
     add_number("plastic_strain", Quantity::number,
                [](const Sample &sample) { return sample.bulk.plastic_strain; });
+  if (parameters.has("plastic zone") && of_run.plastic_strain)
+    add_number("plastic_zone", Quantity::number,
+               [](const Sample &sample) { return plastic_zone(sample.bulk.plastic_strain); });
+  if (parameters.has("principal stretches") && of_run.stretches)
+    add_eigenvalues(
+      "principal_stretch", Quantity::number,
+      [](const Sample &sample) { return sample.bulk.strain; },
+      [](const double logarithmic_strain) { return std::exp(logarithmic_strain); });
   if (parameters.has("strain energy"))
     add_number("strain_energy_density", Quantity::stress,
                [](const Sample &sample) { return sample.bulk.energy_density; });
@@ -42,13 +49,23 @@ BodyFields<dim>::add_stresses()
   add_number("von_mises", Quantity::stress, [](const Sample &sample) {
     return von_mises(sample.bulk.stress, sample.bulk.out_of_plane_stress);
   });
+  add_eigenvalues(
+    "principal_stress", Quantity::stress, [](const Sample &sample) { return sample.bulk.stress; },
+    [](const double stress) { return stress; });
+}
+
+template <int dim>
+void
+BodyFields<dim>::add_eigenvalues(const std::string &name, const Quantity quantity,
+                                 const TensorOf &tensor, double (*function)(double))
+{
   std::vector<std::string> names;
   for (unsigned int d = 0; d < dim; ++d)
-    names.push_back("principal_stress_" + std::to_string(d + 1));
+    names.push_back(name + "_" + std::to_string(d + 1));
   fields.push_back(
-    {names, Quantity::stress, false, [](const Sample &sample, std::vector<double> &values) {
-       for (const double principal : eigenvalues(sample.bulk.stress))
-         values.push_back(principal);
+    {names, quantity, false, [tensor, function](const Sample &sample, std::vector<double> &values) {
+       for (const double principal : eigenvalues(tensor(sample)))
+         values.push_back(function(principal));
      }});
 }
 
@@ -148,6 +165,12 @@ may_flow(const std::vector<Body<dim>> &bodies)
 {
   return std::any_of(bodies.begin(), bodies.end(),
                      [](const Body<dim> &body) { return may_flow(body); });
+}
+
+double
+plastic_zone(const double plastic_strain)
+{
+  return plastic_strain > 1e-12 ? 1. : 0.;
 }
 
 template <int dim>

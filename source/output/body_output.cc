@@ -280,10 +280,10 @@ BodyOutput<dim>::write(const Kinematics<dim>                       &kinematics,
                        const VelocityField<dim> *velocities, const std::string &directory,
                        const unsigned int number, const double time) const
 {
-  const PointEvaluator<dim>      field(space, u), start = kinematics.start_displacement_field();
-  const bool                     is_moved = kinematics.moves_bodies();
-  const BodyFields<dim>          fields(parameters, velocities != nullptr, may_flow(bodies));
-  PatchOutput<dim, dim>          output;
+  const PointEvaluator<dim> field(space, u), start = kinematics.start_displacement_field();
+  const bool                is_moved = kinematics.moves_bodies();
+  const BodyFields<dim>     fields(parameters, {velocities != nullptr, may_flow(bodies), is_moved});
+  PatchOutput<dim, dim>     output;
   std::vector<VertexSample<dim>> samples;
   output.names = fields.names();
   for (const auto &[first, name] : fields.vectors())

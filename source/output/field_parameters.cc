@@ -10,9 +10,11 @@ FieldParameters::declare(ParameterSection &section)
 {
   section.entry(
     "Fields", chosen,
-    dealii::Patterns::Selection("stress|strain|plastic strain|strain energy|volume ratio"),
+    dealii::Patterns::Selection("stress|strain|principal stretches|plastic strain|plastic zone|"
+                                "strain energy|volume ratio"),
     "Fields of the bodies' VTU besides displacement and body. Stress comes with von Mises and "
-    "principal stresses, plastic strain where a material has a yield stress.");
+    "principal stresses, principal stretches on a moving geometry, plastic strain and the plastic "
+    "zone where a material has a yield stress.");
 }
 
 bool

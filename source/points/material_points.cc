@@ -108,6 +108,7 @@ MaterialPoints<dim>::add(const Point<dim> &x, const unsigned int body_number, co
   mass.push_back(point_mass);
   deformation_gradient.push_back(unit_symmetric_tensor<dim>());
   stress.emplace_back();
+  out_of_plane_stress.emplace_back();
   velocity.emplace_back();
   acceleration.emplace_back();
   forcing.emplace_back();

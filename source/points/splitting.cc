@@ -60,7 +60,10 @@ transfer_state(MaterialPoints<dim> &points, const MaterialPoints<dim> &old, cons
   const auto gradients = interpolated_gradients(weights, old.deformation_gradient);
   std::copy(gradients.begin(), gradients.end(), points.deformation_gradient.begin() + first);
   for (std::size_t c = 0; c < weights.n_targets(); ++c)
-    points.stress[first + c] = weights.value(old.stress, c);
+    {
+      points.stress[first + c]              = weights.value(old.stress, c);
+      points.out_of_plane_stress[first + c] = weights.value(old.out_of_plane_stress, c);
+    }
   for (std::size_t c = 0; c < weights.n_targets(); c += n_children)
     {
       Tensor<1, dim> mean;

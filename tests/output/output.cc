@@ -158,6 +158,13 @@ TEST(VonMises, PlaneStrainAndThreeDimensions)
   EXPECT_NEAR(von_mises(full, 0.), std::sqrt(12.), 1e-14);
 }
 
+TEST(PlasticZone, RoundOffIsNoFlow)
+{
+  EXPECT_EQ(plastic_zone(0.), 0.);
+  EXPECT_EQ(plastic_zone(1e-16), 0.);
+  EXPECT_EQ(plastic_zone(1e-9), 1.);
+}
+
 /** Two blocks squeezed by d with a plane contact at y = 0: uniform pressure. */
 std::string
 squeezed_blocks()

@@ -40,6 +40,7 @@ make_points(const unsigned int n, const unsigned int n_bodies, const unsigned in
             points.deformation_gradient.back()[d][dim - 1] += 0.01 * x[d];
             points.stress.back()[d][d] = 100. * d + x[1];
           }
+        points.out_of_plane_stress.back() = 7. * x[0] - x[1];
         for (unsigned int k = 0; k < n_internal; ++k)
           points.internal[points.internal.size() - n_internal + k] = 1000. * k + i;
       }
@@ -59,6 +60,7 @@ expect_equal(const MaterialPoints<dim> &a, const MaterialPoints<dim> &b)
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.deformation_gradient, b.deformation_gradient);
   EXPECT_EQ(a.stress, b.stress);
+  EXPECT_EQ(a.out_of_plane_stress, b.out_of_plane_stress);
   EXPECT_EQ(a.velocity, b.velocity);
   EXPECT_EQ(a.internal, b.internal);
   EXPECT_EQ(a.body, b.body);
@@ -228,6 +230,7 @@ check_splitting()
           error = std::max(error, std::abs(points.stress[i][d][d] - 100. * d - x[1]));
           error = std::max(error, std::abs(points.velocity[i][d] - 0.1 * d - x[0]));
         }
+      error = std::max(error, std::abs(points.out_of_plane_stress[i] - 7. * x[0] + x[1]));
       error = std::max(error, std::abs(points.internal[2 * i + 1] - x[0]));
       if (x[0] < 0.5 && x[1] < 0.5)
         {
@@ -289,6 +292,7 @@ check_migration()
       EXPECT_EQ(points.velocity[i], original.velocity[k]);
       EXPECT_EQ(points.deformation_gradient[i], original.deformation_gradient[k]);
       EXPECT_EQ(points.stress[i], original.stress[k]);
+      EXPECT_EQ(points.out_of_plane_stress[i], original.out_of_plane_stress[k]);
       EXPECT_EQ(points.internal[3 * i + 2], original.internal[3 * k + 2]);
     }
 }

@@ -19,14 +19,20 @@ struct VertexSample
   unsigned int           body = 0;
 };
 
+/** What a run has, so that fields of it can be written. */
+struct FieldsOfRun
+{
+  bool velocity       = false;
+  bool plastic_strain = false; //!< there is a law with a yield stress
+  bool stretches      = false; //!< the geometry moves, so that strains are logarithmic
+};
+
 /** The fields of the files of bodies: names, quantities, values. */
 template <int dim>
 class BodyFields
 {
 public:
-  /** @param with_plastic_strain whether there is a law with a yield stress */
-  BodyFields(const FieldParameters &parameters, const bool with_velocity,
-             const bool with_plastic_strain);
+  BodyFields(const FieldParameters &parameters, const FieldsOfRun &of_run);
 
   /** One of each component, those of vectors with the same name. */
   std::vector<std::string> names() const;
@@ -59,6 +65,9 @@ private:
                   const std::function<dealii::Tensor<1, dim>(const Sample &)> &vector);
   void add_tensor(const std::string &name, const Quantity quantity, const TensorOf &tensor);
   void add_stresses();
+  /** Of a tensor, in falling order: NAME_1 ... */
+  void add_eigenvalues(const std::string &name, const Quantity quantity, const TensorOf &tensor,
+                       double (*function)(double));
 
   std::vector<Field> fields;
 };
@@ -70,6 +79,10 @@ bool may_flow(const Body<dim> &body);
 /** Whether one of the bodies has. */
 template <int dim>
 bool may_flow(const std::vector<Body<dim>> &bodies);
+
+/** Whether the material has yielded in the course of the run, by its equivalent plastic strain: 1
+ * or 0. Less than 1e-12 is round-off. */
+double plastic_zone(const double plastic_strain);
 
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
 template <int dim>

@@ -12,8 +12,9 @@ namespace scree
 /**
  * Writes the material points of all processes where they are to DIR/points_NNNN.vtu or .pvtu, see
  * write_vtu_files(): body, displacement since the start, with inertia velocity, volume, volume
- * ratio det F, Cauchy stress in the plane or space, and where a material has a yield stress the
- * equivalent plastic strain.
+ * ratio det F, Cauchy stress, in 2D with sigma_zz, F, where a material has a yield stress the
+ * equivalent plastic strain and the plastic zone, and where laws carry them internal variables (see
+ * StepStart::n_internal).
  */
 template <int dim>
 std::string write_points_vtu(const MaterialPoints<dim>    &points,

@@ -43,6 +43,7 @@ public:
   std::vector<double>                          mass;                 //!< [M]
   std::vector<dealii::Tensor<2, dim>>          deformation_gradient; //!< F = dx/dX
   std::vector<dealii::SymmetricTensor<2, dim>> stress;               //!< Cauchy [F/L^2]
+  std::vector<double>                          out_of_plane_stress;  //!< sigma_zz, 2D [F/L^2]
   std::vector<dealii::Tensor<1, dim>>          velocity;             //!< [L/T]
   std::vector<dealii::Tensor<1, dim>>          acceleration;         //!< [L/T^2]
   std::vector<dealii::Tensor<1, dim>>          forcing;              //!< force per mass [L/T^2]
@@ -108,6 +109,7 @@ public:
     f(points.mass, 1u);
     f(points.deformation_gradient, 1u);
     f(points.stress, 1u);
+    f(points.out_of_plane_stress, 1u);
     f(points.velocity, 1u);
     f(points.acceleration, 1u);
     f(points.forcing, 1u);
