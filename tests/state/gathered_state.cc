@@ -73,35 +73,32 @@ TEST(GatheredState, AMovingStateComesBack)
 TEST(GatheredState, WhatContradictsItselfIsRefused)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<std::pair<std::string, std::function<void(GatheredState<2> &)>>> damages
-    = {{"no body", [](auto &s) { s.bodies.clear(); }},
-       {"half a point", [](auto &s) { s.points[0].pop_back(); }},
-       {"values of a level set", [](auto &s) { s.bodies[0].level_set.pop_back(); }},
-       {"nodes of a level set",
-        [](auto &s) {
-          s.bodies[0].n_nodes = {{-5, -4}};
-        }},
-       {"a level set far away",
-        [](auto &s) { s.bodies[0].lower[1] = std::numeric_limits<int>::max(); }},
-       {"a box of nowhere",
-        [nan](auto &s) {
-          s.bodies[0].box = dealii::BoundingBox<2>({Point<2>(nan, 0.), Point<2>(1., 1.)});
-        }},
-       {"the displacement of a body",
-        [](auto &s) {
-          s.bodies[0].displacement = {lattice(), NodalVectors<2>{{{1.}, {1.}}}};
-        }},
-       {"the length of the step", [nan](auto &s) { s.last_step_size = nan; }},
-       {"no increments of bodies", [](auto &s) { s.increments_of_bodies.clear(); }},
-       {"an empty increment", [](auto &s) { s.increments_of_bodies[0] = {}; }},
-       {"no increments of rigid bodies", [](auto &s) { s.increments_of_rigid.clear(); }},
-       {"no rates of rigid bodies", [](auto &s) { s.has_inertia = true; }},
-       {"forces on a rigid body that is not there",
-        [](auto &s) { s.step_end.driving.of_rigid = {1.}; }},
-       {"pressures of contact", [](auto &s) { s.step_end.contact.pressure.clear(); }},
-       {"cells of contact", [](auto &s) { s.step_end.contact.cell_size[0] = 0.; }},
-       {"contact at no place", [nan](auto &s) { s.step_end.contact.position[0][0] = nan; }},
-       {"contact far away", [](auto &s) { s.step_end.contact.position[0][0] = 1e300; }}};
+  const std::vector<std::pair<std::string, std::function<void(GatheredState<2> &)>>> damages = {
+    {"no body", [](auto &s) { s.bodies.clear(); }},
+    {"half a point", [](auto &s) { s.points[0].pop_back(); }},
+    {"values of a level set", [](auto &s) { s.bodies[0].level_set.pop_back(); }},
+    {"nodes of a level set",
+     [](auto &s) {
+       s.bodies[0].n_nodes = {{-5, -4}};
+     }},
+    {"a level set far away",
+     [](auto &s) { s.bodies[0].lower[1] = std::numeric_limits<int>::max(); }},
+    {"a box of nowhere", [nan](auto &s) { s.bodies[0].box.get_boundary_points().first[0] = nan; }},
+    {"the displacement of a body",
+     [](auto &s) {
+       s.bodies[0].displacement = {lattice(), NodalVectors<2>{{{1.}, {1.}}}};
+     }},
+    {"the length of the step", [nan](auto &s) { s.last_step_size = nan; }},
+    {"no increments of bodies", [](auto &s) { s.increments_of_bodies.clear(); }},
+    {"an empty increment", [](auto &s) { s.increments_of_bodies[0] = {}; }},
+    {"no increments of rigid bodies", [](auto &s) { s.increments_of_rigid.clear(); }},
+    {"no rates of rigid bodies", [](auto &s) { s.has_inertia = true; }},
+    {"forces on a rigid body that is not there",
+     [](auto &s) { s.step_end.driving.of_rigid = {1.}; }},
+    {"pressures of contact", [](auto &s) { s.step_end.contact.pressure.clear(); }},
+    {"cells of contact", [](auto &s) { s.step_end.contact.cell_size[0] = 0.; }},
+    {"contact at no place", [nan](auto &s) { s.step_end.contact.position[0][0] = nan; }},
+    {"contact far away", [](auto &s) { s.step_end.contact.position[0][0] = 1e300; }}};
   for (const auto &[what, damage] : damages)
     {
       GatheredState<2> saved = saved_state();
