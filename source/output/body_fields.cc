@@ -64,7 +64,7 @@ BodyFields<dim>::add_eigenvalues(const std::string &name, const Quantity quantit
     names.push_back(name + "_" + std::to_string(d + 1));
   fields.push_back(
     {names, quantity, false, [tensor, function](const Sample &sample, std::vector<double> &values) {
-       for (const double principal : eigenvalues(tensor(sample)))
+       for (const double principal : principal_values(tensor(sample)))
          values.push_back(function(principal));
      }});
 }
@@ -184,6 +184,20 @@ von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz)
   if (dim == 2)
     full[2][2] = zz;
   return std::sqrt(1.5) * deviator(full).norm();
+}
+
+std::array<double, 2>
+principal_values(const dealii::SymmetricTensor<2, 2> &tensor)
+{
+  const double mean   = 0.5 * (tensor[0][0] + tensor[1][1]);
+  const double radius = std::hypot(0.5 * (tensor[0][0] - tensor[1][1]), tensor[0][1]);
+  return {{mean + radius, mean - radius}};
+}
+
+std::array<double, 3>
+principal_values(const dealii::SymmetricTensor<2, 3> &tensor)
+{
+  return eigenvalues(tensor);
 }
 
 template class BodyFields<2>;

@@ -158,6 +158,25 @@ TEST(VonMises, PlaneStrainAndThreeDimensions)
   EXPECT_NEAR(von_mises(full, 0.), std::sqrt(12.), 1e-14);
 }
 
+// deal.II's eigenvalues of such a tensor may be the root of a negative number.
+TEST(BodyFields, PrincipalValuesOfIsotropicTensors)
+{
+  for (const double p : {0.1, 1. / 3., -7.123456789})
+    for (const double q : {p, std::nextafter(p, 10.)})
+      {
+        SymmetricTensor<2, 2> tensor;
+        tensor[0][0]      = p;
+        tensor[1][1]      = q;
+        tensor[0][1]      = 1e-17;
+        const auto values = principal_values(tensor);
+        EXPECT_NEAR(values[0], p, 1e-14);
+        EXPECT_NEAR(values[1], p, 1e-14);
+      }
+  SymmetricTensor<2, 2> shear;
+  shear[0][1] = 3.;
+  EXPECT_EQ(principal_values(shear), (std::array<double, 2>{{3., -3.}}));
+}
+
 TEST(PlasticZone, RoundOffIsNoFlow)
 {
   EXPECT_EQ(plastic_zone(0.), 0.);

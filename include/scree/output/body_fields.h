@@ -3,6 +3,7 @@
 #include <scree/mechanics/bulk.h>
 #include <scree/output/field_parameters.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -87,4 +88,8 @@ double plastic_zone(const double plastic_strain);
 /** Von Mises stress; `zz` is the out-of-plane stress of plane strain, ignored in 3D. */
 template <int dim>
 double von_mises(const dealii::SymmetricTensor<2, dim> &stress, const double zz);
+
+/** Eigenvalues, the largest first, also of a tensor that is isotropic but for round-off. */
+std::array<double, 2> principal_values(const dealii::SymmetricTensor<2, 2> &tensor);
+std::array<double, 3> principal_values(const dealii::SymmetricTensor<2, 3> &tensor);
 } // namespace scree
