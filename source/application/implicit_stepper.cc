@@ -386,12 +386,13 @@ ImplicitStepper<dim>::is_interrupted() const
 
 template <int dim>
 Newton
-ImplicitStepper<dim>::newton(const bool is_patient)
+ImplicitStepper<dim>::newton(const bool is_patient, const double left)
 {
   constexpr unsigned int few        = 40;
   NewtonParameters       of_attempt = parameters.newton;
   if (!is_patient)
     of_attempt.patience = few;
+  of_attempt.absolute_tolerance += left;
   return Newton(of_attempt, hooks());
 }
 
@@ -418,18 +419,14 @@ NewtonResult
 ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
                                           const NewtonResult &result)
 {
-  constexpr double       rough   = 1e-5; // of the residual: enough to begin from
-  constexpr unsigned int few     = 40;
-  DiscreteProblem<dim>  &problem = model.problem();
-  Vector                 v(start);
-  const double           pressed_before = pressed;
+  constexpr double      rough   = 1e-5; // of the residual: enough to begin from
+  DiscreteProblem<dim> &problem = model.problem();
+  Vector                v(start);
+  const double          pressed_before = pressed;
   problem.contact().laws().set_sticks(true);
   Vector r(v);
   problem.equilibrium().residual(v, model.state().contact, r);
-  NewtonParameters sticking = parameters.newton;
-  sticking.patience         = few;
-  sticking.absolute_tolerance += rough * r.l2_norm();
-  const unsigned int n_sticking = Newton(sticking, hooks()).solve(v).iterations;
+  const unsigned int n_sticking = this->newton(false, rough * r.l2_norm()).solve(v).iterations;
   problem.contact().laws().set_sticks(false);
   const NewtonResult again = solve_enforced(newton, v);
   NewtonResult       best  = result;

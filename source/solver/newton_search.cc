@@ -118,22 +118,6 @@ Newton::search_zeros(const Search &search, const Vector &u, const Vector &du, co
       for (const unsigned int p : sought)
         searches[p]->take(after[p]);
     }
-  if (getenv("DBG"))
-    {
-      unsigned int best = 0;
-      for (unsigned int p = 0; p < parts.n_parts; ++p)
-        if (weights[p] > weights[best])
-          best = p;
-      const auto rr = parts.products(step.r, step.r), dd = parts.products(du, du);
-      double     tot = 0;
-      for (auto w : weights)
-        tot += w;
-      printf("DBG parts %u worst %u |r|^2 share %.3f |r| %.4g -> %.4g alpha %.4g start %.3g after1 "
-             "%.3g |du| %.3g mass %.3g lag %d\n",
-             parts.n_parts, best, weights[best] / tot, sqrt(weights[best]), sqrt(rr[best]),
-             alphas[best], start[best], after[best], sqrt(dd[best]), mass[best],
-             mass_du != nullptr);
-    }
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.);
   step.alpha       = sum > 0.
                        ? std::inner_product(weights.begin(), weights.end(), alphas.begin(), 0.) / sum

@@ -57,8 +57,9 @@ private:
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
   void take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
   /** The material points after the step; false, with the outcome, if they moved too far. */
-  bool         take_points(const Vector &u, Attempt<dim> &attempt);
-  Newton       newton(const bool is_patient);
+  bool take_points(const Vector &u, Attempt<dim> &attempt);
+  /** @param left what of the residual may be left, beyond the tolerances [force] */
+  Newton       newton(const bool is_patient, const double left = 0.);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
