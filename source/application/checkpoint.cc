@@ -1,10 +1,10 @@
 #include <scree/application/checkpoint.h>
 #include <scree/base/exceptions.h>
+#include <scree/state/bounded_archive.h>
 #include <scree/state/checkpoint_file.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/stream.hpp>
@@ -39,7 +39,7 @@ Checkpoint<dim>::read(const std::string &directory, const MPI_Comm communicator)
     {
       using Contents = boost::iostreams::array_source;
       boost::iostreams::stream<Contents> bytes(Contents(file.contents.data(), size));
-      boost::archive::binary_iarchive    archive(bytes);
+      BoundedArchive                     archive(bytes, size);
       archive >> result;
     }
   catch (const std::exception &error) // of the archive, or lengths that cannot be

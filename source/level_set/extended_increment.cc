@@ -1,6 +1,7 @@
 #include <scree/level_set/extended_increment.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -15,13 +16,17 @@ ExtendedIncrement<dim>::ExtendedIncrement(const Lattice<dim> &lattice, NodalVect
 
 template <int dim>
 bool
-ExtendedIncrement<dim>::is_whole() const
+ExtendedIncrement<dim>::is_whole(const double limit) const
 {
   if (is_empty())
     return std::all_of(nodal.begin(), nodal.end(), [](const auto &v) { return v.empty(); });
-  return spacing > 0. && std::all_of(nodal.begin(), nodal.end(), [&](const auto &v) {
-           return is_number_of_nodes<dim>(v.size(), n_nodes, 2);
-         });
+  const auto is_sound
+    = [&](const double x) { return std::abs(x) < limit; }; // not what is no number
+  return spacing > 0. && std::all_of(first.begin_raw(), first.end_raw(), is_sound)
+         && std::all_of(nodal.begin(), nodal.end(), [&](const auto &v) {
+              return is_number_of_nodes<dim>(v.size(), n_nodes, 2)
+                     && std::all_of(v.begin(), v.end(), is_sound);
+            });
 }
 
 template <int dim>

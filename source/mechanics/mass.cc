@@ -205,8 +205,11 @@ Mass<dim>::solve(const Vector &right_side, const std::function<void(Vector &)> &
   catch (const dealii::SolverControl::NoConvergence &failure)
     {
       // Round-off may end the iteration just above the tolerance.
-      AssertThrow(failure.last_residual < 1e-10 * norm,
-                  dealii::ExcMessage("the fit of velocities did not converge"));
+      require(
+        failure.last_residual < 1e-10 * norm, "Bodies",
+        "velocities cannot be fitted to the material points: a body has moved to where it has "
+        "none",
+        "hold motions normal to the faces of the background box, or let bodies end inside it");
     }
   return result;
 }

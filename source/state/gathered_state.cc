@@ -56,6 +56,14 @@ require_consistent(const bool is_consistent, const std::string &directory)
   require(is_consistent, directory, "the checkpoint contradicts itself", "start the run anew");
 }
 
+/** Whether sums and squares of all of them are numbers, too. */
+bool
+are_numbers(const std::vector<double> &values)
+{
+  return std::all_of(values.begin(), values.end(),
+                     [](const double x) { return std::abs(x) < 1e100; });
+}
+
 /** That points belong to bodies, are near the grid and no larger than it: else they would be
  * searched for in vain, or divided without end. */
 template <int dim>
@@ -90,11 +98,20 @@ require_sound(const ContactMemory<dim> &memory, const dealii::BoundingBox<dim> &
                        directory);
 }
 
+/** No node of a lattice, which reaches beyond its body, moves so far. */
+template <int dim>
+double
+farthest_motion(const dealii::BoundingBox<dim> &box)
+{
+  const auto [lower, upper] = box.get_boundary_points();
+  return 1e3 * (lower.distance(upper) + lower.norm());
+}
+
 /** That there is a motion of each body, as the next step asks for it. */
 template <int dim>
 void
 require_motions(const GatheredState<dim> &saved, const std::vector<Body<dim>> &bodies,
-                const std::string &directory)
+                const dealii::BoundingBox<dim> &box, const std::string &directory)
 {
   require_consistent(saved.last_step_size >= 0. && std::isfinite(saved.last_step_size), directory);
   if (saved.last_step_size > 0.)
@@ -103,7 +120,7 @@ require_motions(const GatheredState<dim> &saved, const std::vector<Body<dim>> &b
                            && saved.increments_of_rigid.size() == bodies.size(),
                          directory);
       for (unsigned int b = 0; b < bodies.size(); ++b)
-        require_consistent(saved.increments_of_bodies[b].is_whole()
+        require_consistent(saved.increments_of_bodies[b].is_whole(farthest_motion(box))
                              && saved.increments_of_bodies[b].is_empty() == bodies[b].is_rigid(),
                            directory);
     }
@@ -144,7 +161,8 @@ restored_lattice(const LatticeFrame<dim> &frame, const typename Lattice<dim>::In
                  const std::string &directory)
 {
   constexpr int farthest = 1 << 29; // what is near may be counted from there
-  require_consistent(is_number_of_nodes<dim>(values.size(), n, 4), directory);
+  require_consistent(is_number_of_nodes<dim>(values.size(), n, 4) && are_numbers(values),
+                     directory);
   for (const int node : lower)
     require_consistent(node > -farthest && node < farthest, directory);
   Lattice<dim> result(frame, lower, n);
@@ -155,7 +173,8 @@ restored_lattice(const LatticeFrame<dim> &frame, const typename Lattice<dim>::In
 template <int dim>
 void
 restore_geometry(const typename GatheredState<dim>::Geometry &saved, const bool is_reset,
-                 const std::string &directory, Body<dim> &geometry)
+                 const dealii::BoundingBox<dim> &background, const std::string &directory,
+                 Body<dim> &geometry)
 {
   const LatticeFrame<dim> frame = geometry.level_set.frame();
   geometry.level_set
@@ -166,7 +185,7 @@ restore_geometry(const typename GatheredState<dim>::Geometry &saved, const bool 
   const auto [lower, upper] = saved.box.get_boundary_points();
   for (unsigned int d = 0; d < dim; ++d)
     require_consistent(lower[d] <= upper[d] && std::isfinite(upper[d] - lower[d]), directory);
-  require_consistent(saved.displacement.is_whole(), directory);
+  require_consistent(saved.displacement.is_whole(farthest_motion(background)), directory);
   geometry.box          = saved.box;
   geometry.displacement = saved.displacement;
   if (!saved.has_shape)
@@ -312,7 +331,7 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
   const unsigned int n_values = state.points.n_values();
   require_consistent(saved.bodies.size() == state.bodies.size(), directory);
   for (const auto &points : saved.points)
-    require_consistent(points.size() % n_values == 0, directory);
+    require_consistent(points.size() % n_values == 0 && are_numbers(points), directory);
   state.points = MaterialPoints<dim>(state.points.n_internal());
   for (unsigned int p = 0; p < saved.points.size(); ++p)
     if (p * n_here / saved.points.size() == rank)
@@ -320,7 +339,7 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
         state.points.unpack(&saved.points[p][i]);
   require_sound(state.points, state.bodies.size(), background, directory);
   require_sound(saved.step_end.contact, background, directory);
-  require_motions(saved, state.bodies, directory);
+  require_motions(saved, state.bodies, background, directory);
   state.step_end   = saved.step_end;
   state.start_gaps = saved.start_gaps;
   if (rank > 0)
@@ -331,7 +350,8 @@ restore_moving(const GatheredState<dim> &saved, const dealii::BoundingBox<dim> &
   state.predictor.rates_of_rigid = saved.rates_of_rigid;
   for (unsigned int b = 0; b < state.bodies.size(); ++b)
     if (!state.bodies[b].is_rigid())
-      restore_geometry<dim>(saved.bodies[b], saved.is_reset, directory, state.bodies[b]);
+      restore_geometry<dim>(saved.bodies[b], saved.is_reset, background, directory,
+                            state.bodies[b]);
   state.energies    = saved.energies;
   state.has_started = true;
 }

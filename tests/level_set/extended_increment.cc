@@ -43,10 +43,12 @@ TEST(ExtendedIncrement, WhatIsNoPlaceHasAValue)
 
 TEST(ExtendedIncrement, TellsMissingValues)
 {
-  EXPECT_TRUE(ExtendedIncrement<2>().is_whole());
-  EXPECT_TRUE(stretch().is_whole());
-  EXPECT_FALSE(stretch(19).is_whole());
-  EXPECT_FALSE(stretch(25).is_whole());
+  const double far = 1e3;
+  EXPECT_TRUE(ExtendedIncrement<2>().is_whole(far));
+  EXPECT_TRUE(stretch().is_whole(far));
+  EXPECT_FALSE(stretch().is_whole(1e-3));
+  EXPECT_FALSE(stretch(19).is_whole(far));
+  EXPECT_FALSE(stretch(25).is_whole(far));
 }
 } // namespace
 } // namespace scree

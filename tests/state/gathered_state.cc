@@ -88,6 +88,18 @@ TEST(GatheredState, WhatContradictsItselfIsRefused)
      [](auto &s) {
        s.bodies[0].displacement = {lattice(), NodalVectors<2>{{{1.}, {1.}}}};
      }},
+    {"a displacement beyond all bounds",
+     [](auto &s) {
+       const std::vector<double> far(20, 1e300);
+       s.bodies[0].displacement = {lattice(), NodalVectors<2>{{far, far}}};
+     }},
+    {"an increment that is no number",
+     [nan](auto &s) {
+       const std::vector<double> none(20, nan);
+       s.increments_of_bodies[0] = {lattice(), NodalVectors<2>{{none, none}}};
+     }},
+    {"a level set that is no number", [nan](auto &s) { s.bodies[0].level_set[3] = nan; }},
+    {"a point that is no number", [nan](auto &s) { s.points[0].back() = nan; }},
     {"the length of the step", [nan](auto &s) { s.last_step_size = nan; }},
     {"no increments of bodies", [](auto &s) { s.increments_of_bodies.clear(); }},
     {"an empty increment", [](auto &s) { s.increments_of_bodies[0] = {}; }},

@@ -25,8 +25,9 @@ public:
     return nodal[0].empty();
   }
 
-  /** Whether there are values for all nodes: of what comes from a file there need not be. */
-  bool is_whole() const;
+  /** Whether there are values below `limit` [L] for all nodes: of what comes from a file there need
+   * not be. */
+  bool is_whole(const double limit) const;
 
   /** The multilinear interpolant [L], at points outside the lattice the value of the nearest. */
   dealii::Tensor<1, dim> operator()(const dealii::Point<dim> &x) const;
