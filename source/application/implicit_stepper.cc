@@ -261,6 +261,19 @@ ImplicitStepper<dim>::solve_linear_system(const Vector &r, const double toleranc
 }
 
 template <int dim>
+void
+ImplicitStepper<dim>::hold_bodies(const Vector &r, const double tolerance, Vector &du)
+{
+  constexpr unsigned int max_trials  = 6;
+  constexpr double       little_way  = 0.5; // cells
+  Equilibrium<dim>      &equilibrium = model.problem().equilibrium();
+  const double           h           = model.problem().grid.finest_size();
+  for (unsigned int n = 0; n < max_trials && equilibrium.adapt_holds(du, little_way * h); ++n)
+    record.linear_iterations += solve_linear_system(r, tolerance, du).iterations;
+  equilibrium.shorten(du, h);
+}
+
+template <int dim>
 Newton::Hooks
 ImplicitStepper<dim>::hooks()
 {
@@ -268,6 +281,7 @@ ImplicitStepper<dim>::hooks()
   Equilibrium<dim>          &equilibrium = problem.equilibrium();
   const ContactHistory<dim> &history     = model.state().contact;
   Newton::Hooks              hooks;
+  equilibrium.body_holds().release();
   hooks.residual = [&](const Vector &u, Vector &r) {
     const Timings::Scope scope(run_log.timings, "residual");
     equilibrium.residual(u, history, r);
@@ -281,8 +295,8 @@ ImplicitStepper<dim>::hooks()
   };
   hooks.solve = [&](const Vector &, const Vector &r, const double tolerance, Vector &du) {
     record.linear_iterations += solve_linear_system(r, tolerance, du).iterations;
+    hold_bodies(r, tolerance, du);
     problem.contact().laws().set_touching_holds(false);
-    equilibrium.shorten(du, problem.grid.finest_size());
   };
   const auto groups
     = std::make_shared<ContactGroups<dim>>(problem.space, problem.bodies, problem.contact());
@@ -388,7 +402,7 @@ template <int dim>
 Newton
 ImplicitStepper<dim>::newton(const bool is_patient, const double left)
 {
-  constexpr unsigned int few        = 40;
+  constexpr unsigned int few        = 60;
   NewtonParameters       of_attempt = parameters.newton;
   if (!is_patient)
     of_attempt.patience = few;
@@ -423,24 +437,29 @@ ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &st
   DiscreteProblem<dim> &problem = model.problem();
   Vector                v(start);
   const double          pressed_before = pressed;
-  problem.contact().laws().set_sticks(true);
+  problem.contact().laws().set_friction(Friction::sticks);
   Vector r(v);
   problem.equilibrium().residual(v, model.state().contact, r);
-  const unsigned int n_sticking = this->newton(false, rough * r.l2_norm()).solve(v).iterations;
-  problem.contact().laws().set_sticks(false);
-  const NewtonResult again = solve_enforced(newton, v);
-  NewtonResult       best  = result;
-  if (again.converged())
+  const NewtonResult sticking = this->newton(false, rough * r.l2_norm()).solve(v);
+  problem.contact().laws().set_friction(Friction::of_law);
+  NewtonResult best = result;
+  best.iterations += sticking.iterations;
+  if (sticking.converged())
     {
-      u    = v;
-      best = again;
+      const NewtonResult again = solve_enforced(newton, v);
+      best.iterations += again.iterations;
+      if (again.converged()
+          && (!has_lost_contact(again) || largest_free_motion(v) < largest_free_motion(u)))
+        {
+          u                    = v;
+          const unsigned int n = best.iterations;
+          best                 = again;
+          best.iterations      = n;
+          return best;
+        }
     }
-  else
-    {
-      pressed = pressed_before;
-      problem.equilibrium().residual(u, model.state().contact, v);
-    }
-  best.iterations = result.iterations + n_sticking + again.iterations;
+  pressed = pressed_before;
+  problem.equilibrium().residual(u, model.state().contact, v);
   return best;
 }
 

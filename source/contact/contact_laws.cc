@@ -44,9 +44,9 @@ ContactLaws<dim>::acting_law(const unsigned int pair) const
   const ContactLaw &law                 = *of_pairs[pair].law.kind;
   if (law.glues)
     return law;
-  if (!pair_allowances.empty())
+  if (!pair_allowances.empty() || friction == Friction::none)
     return frictionless;
-  return all_stick && law.bound && law.slides ? stick : law;
+  return friction == Friction::sticks && law.bound && law.slides ? stick : law;
 }
 
 template <int dim>

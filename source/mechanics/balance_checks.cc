@@ -211,7 +211,10 @@ bool
 is_in_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<dim>::Vector &u,
               const double residual, const NewtonParameters &newton)
 {
-  if (!(residual <= round_off * problem.equilibrium().force_scale()))
+  constexpr double  n_rounded   = 100.; // bodies that nothing presses
+  Equilibrium<dim> &equilibrium = problem.equilibrium();
+  if (!(residual
+        <= std::max(round_off * equilibrium.force_scale(), n_rounded * equilibrium.round_off())))
     return false;
   const auto               balances = problem.equilibrium().balance(u);
   const BalanceLimits<dim> limits(problem, balances, newton);

@@ -47,6 +47,7 @@ Equilibrium<dim>::add_artificial_mass(Matrix &matrix) const
   for (const DofIndex index : space.owned())
     if (artificial_mass(index) != 0.)
       matrix.add(index, index, (mass_factor + drag) * artificial_mass(index));
+  holds.add_to(artificial_mass, matrix);
   for (unsigned int i = 0; i < free_bodies().size(); ++i)
     for (const DofIndex unknown : free.unknowns(i))
       if (are_moments_whole && held_moments[free_bodies()[i].body] != 0.
@@ -77,6 +78,20 @@ Equilibrium<dim>::shorten(Vector &du, const double length) const
     [&](const unsigned int body) { return std::binary_search(loose.begin(), loose.end(), body); });
   if (largest > length)
     du *= length / largest;
+}
+
+template <int dim>
+bool
+Equilibrium<dim>::adapt_holds(const Vector &du, const double length)
+{
+  return !has_inertia() && holds.adapt(du, length, mass_factor + drag);
+}
+
+template <int dim>
+BodyHolds<dim> &
+Equilibrium<dim>::body_holds()
+{
+  return holds;
 }
 
 template <int dim>
@@ -240,6 +255,8 @@ Equilibrium<dim>::turn(Vector &u) const
 
 #define SCREE_INSTANTIATE(dim)                                                                    \
   template void                     Equilibrium<dim>::shorten(Vector &, const double) const;      \
+  template bool                     Equilibrium<dim>::adapt_holds(const Vector &, const double);  \
+  template BodyHolds<dim>          &Equilibrium<dim>::body_holds();                               \
   template void                     Equilibrium<dim>::set_artificial_mass(const double);          \
   template void                     Equilibrium<dim>::set_second_attempt(const bool);             \
   template void                     Equilibrium<dim>::set_drag(const double);                     \

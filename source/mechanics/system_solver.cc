@@ -46,7 +46,8 @@ SystemSolver<dim>::solve(const Vector &r, const double tolerance, const bool may
                          Vector &du)
 {
   // A condensed system holds for one factor of the mass.
-  if (may_condense && condenses && !equilibrium.has_inertia())
+  if (may_condense && condenses && !equilibrium.has_inertia()
+      && !equilibrium.body_holds().are_any())
     try
       {
         return solve_condensed(r, du);

@@ -14,6 +14,8 @@ namespace
 constexpr double       divergence_factor   = 1e8;
 constexpr double       round_off_factor    = 100;
 constexpr double       round_off_increment = 1e-10;
+constexpr unsigned int many_standing       = 8;
+constexpr unsigned int few_standing        = 3;
 constexpr double       forcing_factor      = 0.9;
 constexpr double       forcing_safeguard   = 0.1;
 constexpr double       final_linear_factor = 0.1;
@@ -21,6 +23,7 @@ constexpr double       short_step          = 0.5;
 constexpr double       full_step           = 0.99;
 constexpr double       good_lagged_step    = 0.5;
 constexpr double       poor_step           = 4;
+constexpr unsigned int max_without_gain    = 5;
 constexpr double       first_mass          = 1e-4;
 constexpr double       smallest_mass       = 1e-9;
 constexpr double       largest_mass        = 0.1;
@@ -67,11 +70,10 @@ is_plateau(const std::vector<double> &residuals)
          && residuals[n - 2] > 0.5 * residuals[n - 3];
 }
 
-/** Whether the residual stands at the least that it has reached, for many iterations. */
+/** Whether the residual stands at the least that it has reached, for `n_iterations`. */
 bool
-is_standstill(const std::vector<double> &residuals)
+is_standstill(const std::vector<double> &residuals, const std::ptrdiff_t n_iterations)
 {
-  constexpr std::ptrdiff_t n_iterations = 8;
   if (static_cast<std::ptrdiff_t>(residuals.size()) <= n_iterations)
     return false;
   const auto   last   = residuals.end() - n_iterations;
@@ -109,24 +111,36 @@ NewtonParameters::declare(const ParameterSection &section)
 /** What the next step is. */
 struct Newton::Progress
 {
-  bool         is_lagged = false;      //!< friction in the next step
-  double       mass      = first_mass; //!< s of a lagged step
-  unsigned int n_full    = 0;          //!< lagged steps of alpha = 1 in a row
-  unsigned int n_wanted  = 1;          //!< of these before a step with the tangent
-  unsigned int n_rising  = 0;          //!< balances that raised the residual
+  bool         is_lagged      = false;      //!< friction in the next step
+  double       mass           = first_mass; //!< s of a lagged step
+  unsigned int n_full         = 0;          //!< lagged steps of alpha = 1 in a row
+  unsigned int n_wanted       = 1;          //!< of these before a step with the tangent
+  unsigned int n_rising       = 0;          //!< balances that raised the residual
+  unsigned int n_tangent      = 0;          //!< steps with the tangent that follow in any case
+  unsigned int n_without_gain = 0; //!< steps in a row that did not halve the least residual
+  double       least          = std::numeric_limits<double>::infinity(); //!< that was halved last
   /** The largest residual with which a balance is tried. */
   double balance_below = std::numeric_limits<double>::infinity();
 
   /**
-   * @param ratio of the residuals after and before the step
-   * @param rises whether it is above 1 where something moves freely
+   * @param residual after the step
+   * @param ratio    of the residuals after and before the step
+   * @param rises    whether it is above 1 where something moves freely
    */
-  void end_step(const double alpha, const double ratio, const bool rises)
+  void end_step(const double alpha, const double residual, const double ratio, const bool rises)
   {
+    const bool is_standing = stands_at(residual);
+    n_tangent -= n_tangent > 0;
     if (!is_lagged)
       {
-        is_lagged = alpha < short_step || rises;
+        is_lagged = n_tangent == 0 && (alpha < short_step || rises);
         n_full    = 0;
+        return;
+      }
+    if (is_standing)
+      {
+        is_lagged = false;
+        n_tangent = max_without_gain;
         return;
       }
     n_full    = alpha > full_step ? n_full + 1 : 0;
@@ -137,6 +151,21 @@ struct Newton::Progress
       mass = std::max(smallest_mass, mass_decay * mass);
     else if (alpha < 0.2)
       mass = std::min(largest_mass, mass_growth * mass);
+  }
+
+  /** Whether so many steps in a row did not halve the least residual; then they count anew. */
+  bool stands_at(const double residual)
+  {
+    ++n_without_gain;
+    if (residual < good_lagged_step * least)
+      {
+        least          = residual;
+        n_without_gain = 0;
+      }
+    if (n_without_gain < max_without_gain)
+      return false;
+    n_without_gain = 0;
+    return true;
   }
 };
 
@@ -171,7 +200,7 @@ Newton::balance_after(Step &step, const double norm_before, Progress &progress) 
   if (!balance(balanced.u, balanced.r))
     return;
   balanced.norm        = balanced.r.l2_norm();
-  const bool is_rising = can_lag() && balanced.norm > step.norm;
+  const bool is_rising = hooks.lag && balanced.norm > step.norm;
   if (!is_rising || (progress.n_rising++ < max_rising_balances && balanced.norm <= norm_before))
     {
       step = std::move(balanced);
@@ -230,7 +259,7 @@ Newton::take_step(const double linear_tolerance, const double norm, const Vector
       begin_parts();
       hooks.solve(u, r, linear_tolerance, du);
       step = search(u, du, r, norm);
-      if (!is_poor(step))
+      if (progress.n_tangent > 0 || !is_poor(step))
         return step;
       progress.is_lagged = true;
     }
@@ -260,7 +289,9 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
     return End{
       NewtonStatus::converged_at_round_off,
       "ended at the accuracy of the geometry in %u iterations, |r| = %.3e (tolerance %.3e)"};
-  if (hooks.is_in_balance && is_standstill(residuals) && hooks.is_in_balance(u, residual))
+  const bool is_near = residual <= round_off_factor * iteration.tolerance;
+  if (hooks.is_in_balance && is_standstill(residuals, is_near ? few_standing : many_standing)
+      && hooks.is_in_balance(u, residual))
     return End{NewtonStatus::converged_at_standstill,
                "stands still in balance after %u iterations, |r| = %.3e (tolerance %.3e)"};
   if (hooks.is_interrupted && hooks.is_interrupted())
@@ -323,7 +354,7 @@ Newton::solve(Vector &u) const
       if (can_lag())
         {
           const double ratio = step.norm / iteration.residual;
-          progress.end_step(step.alpha, ratio, ratio > 1. && hooks.mass(du) * du > 0.);
+          progress.end_step(step.alpha, step.norm, ratio, ratio > 1. && hooks.mass(du) * du > 0.);
         }
       balance_after(step, iteration.residual, progress);
       u                           = step.u;

@@ -38,7 +38,7 @@ public:
    * Newton's method from u, at the loads and conditions that were set, without inertia; of no step:
    * nothing is said if contact carries nothing in the end.
    *
-   * @param is_patient whether it goes on beyond 40 iterations
+   * @param is_patient whether it goes on beyond 60 iterations
    */
   NewtonResult solve(Vector &u, const bool is_patient = true);
 
@@ -71,6 +71,8 @@ private:
   void              set_hooks_of_lagging(Newton::Hooks &hooks);
   void              observe(const NewtonIteration &iteration);
   LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
+  /** Solves again while `du` moves bodies far that nothing holds, see BodyHolds. */
+  void hold_bodies(const Vector &r, const double tolerance, Vector &du);
 
   const Parameters<dim> &parameters;
   const StepControl     &step_control;

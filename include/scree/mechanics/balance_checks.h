@@ -32,7 +32,8 @@ require_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<
 
 /**
  * Whether require_balance() allows a state from which Newton's method does not get on: with a
- * residual of at most 1e-6 of the forces, and every body in balance (collective).
+ * residual of at most 1e-6 of the forces, or 100 times round-off, and every body in balance
+ * (collective).
  *
  * @param u of the last residual()
  * @param residual its norm [force]

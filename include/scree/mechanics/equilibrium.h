@@ -1,6 +1,7 @@
 #pragma once
 
 #include <scree/mechanics/body_balance.h>
+#include <scree/mechanics/body_holds.h>
 #include <scree/mechanics/body_stress.h>
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/mechanics/condensation.h>
@@ -34,8 +35,7 @@ public:
   /** Of E/L^2 times volume: holds free bodies in the tangent where contact does not. */
   static constexpr double default_mass_factor = 1e-6;
 
-  /** @param mass of runs with inertia, else null; @param has_inertia it acts now, and holds bodies
-   */
+  /** @param mass of runs with inertia, else null; @param has_inertia it acts now, holds bodies */
   Equilibrium(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
               const Kinematics<dim> &kinematics, const BoundaryTerms<dim> &boundary_terms,
               ContactPoints<dim> &contact, const std::shared_ptr<const Mass<dim>> &mass = nullptr,
@@ -85,8 +85,7 @@ public:
   /** M^-1 times the contact forces there, of rigid bodies as in RigidMasses::write(). */
   Vector accelerations_by_contact(const Vector &u) const;
 
-  /** With inertia: starts a run at `u`, where loads act from the beginning; all that the bodies
-   * have there is external work. */
+  /** With inertia: starts a run at `u`; all that the bodies have there is external work. */
   void start_motion(const double time, const Vector &u, const ContactHistory<dim> &history);
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
@@ -111,6 +110,9 @@ public:
    * farther than `length`: the artificial mass alone would send it anywhere (collective).
    */
   void shorten(Vector &du, const double length) const;
+  /** BodyHolds::adapt() for the du of the last residual(). */
+  bool            adapt_holds(const Vector &du, const double length);
+  BodyHolds<dim> &body_holds();
   /** Sets the artificial mass in the tangent, `factor` E/L^2 per volume, L half the body's size. */
   void set_artificial_mass(const double factor);
   /** Free bodies move against `factor` times that mass times u less the accepted one. */
@@ -130,10 +132,8 @@ public:
   const std::vector<FreeMotion> &free_bodies() const;
   /** What supports and the contact of the last residual() leave to them. */
   const FreeBodies<dim> &free_motions() const;
-  /**
-   * Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work of
-   * their loads, of that of all |f_b| over a cell; empty: they stay.
-   */
+  /** Moves free bodies of the last residual() into balance, see FreeBodies::balancing(): the work
+   * of their loads, of that of all |f_b| over a cell; empty: they stay. */
   std::optional<double> balance_rigid_motions(Vector &u, const ContactHistory<dim> &history,
                                               const bool is_settling = false) const;
 
@@ -219,6 +219,7 @@ private:
   StrongSupports<dim>           supports;
   RigidBodies<dim>              rigid;
   FreeBodies<dim>               free;
+  BodyHolds<dim>                holds;
   EnergyLedger<dim>             ledger;
 
   Matrix              stiffness, newton_matrix; //!< A and K

@@ -27,8 +27,8 @@ public:
    * Solves K du = r to |r - K du| <= tolerance |r| or better, K at the last residual()
    * (collective).
    *
-   * @param may_condense whether contact alone changes K: no artificial mass above the default one,
-   *                     no second attempt
+   * @param may_condense whether contact alone changes K, and what holds bodies: no artificial mass
+   *                     above the default one, no second attempt
    * @throws LinearSolverFailure if K is singular or an iteration does not converge
    */
   LinearSolveResult solve(const Vector &r, const double tolerance, const bool may_condense,

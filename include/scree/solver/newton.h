@@ -82,8 +82,9 @@ struct NewtonIteration
  * supplies the reference, a norm of forces at the present u. What did not fall to half in either of
  * the last two iterations is accepted (converged_at_round_off) if it is at most 100 times the
  * tolerance and the last |du|_2 was at most 1e-10 |u|_2, or if a hook says that only the accuracy
- * of the geometry is left. What did not fall below half in 8 iterations, and is within twice of the
- * least, is accepted (converged_at_standstill) if a hook says that all is in balance.
+ * of the geometry is left. What did not fall below half of the least in 8 iterations, in 3 below
+ * 100 times the tolerance, and is within twice of that, is accepted (converged_at_standstill) if a
+ * hook says that all is in balance.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -108,8 +109,9 @@ struct NewtonIteration
  * along du of the energy plus s |u' - u|_M^2/2. s is 1e-4 at first, a tenth, at least 1e-9, after a
  * step of alpha > 1/2 and four times as large, at most 0.1, after one of alpha < 0.2. A lagged step
  * of alpha = 1 ends it if |r| falls to half or n such steps followed each other, n = 1 at first and
- * twice as many after each time. M never enters r: what converged is in balance without it. (The
- * lagging is that of incremental potentials: Li et al., ACM Trans. Graph. 39, 2020, 49.)
+ * twice as many after each time; so do 5 steps that did not halve the least |r|, and 5 steps
+ * without lagging follow. M never enters r: what converged is in balance without it. (The lagging
+ * is that of incremental potentials: Li et al., ACM Trans. Graph. 39, 2020, 49.)
  *
  * *Linear tolerances:* `eta = 0.9 (|r| / |r_before|)^2`, in the first iteration the loosest one
  * (Eisenstat, Walker, SIAM J. Sci. Comput. 17, 1996, choice 2 with its safeguard), never above the

@@ -1,0 +1,81 @@
+#include <scree/mechanics/body_holds.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+namespace
+{
+// The constants that body_holds.h documents.
+constexpr double far      = 1.5;
+constexpr double near     = 0.25;
+constexpr double growth   = 10.;
+constexpr double decrease = 0.3;
+} // namespace
+
+template <int dim>
+BodyHolds<dim>::BodyHolds(const FreeBodies<dim> &free, const MPI_Comm communicator)
+    : free(free)
+    , communicator(communicator)
+{
+  release();
+}
+
+template <int dim>
+void
+BodyHolds<dim>::release()
+{
+  factors.assign(free.motions().size(), 0.);
+}
+
+template <int dim>
+bool
+BodyHolds<dim>::are_any() const
+{
+  return std::any_of(factors.begin(), factors.end(), [](const double s) { return s > 0.; });
+}
+
+template <int dim>
+bool
+BodyHolds<dim>::adapt(const Vector &du, const double length, const double of_all)
+{
+  std::vector<double> motions(factors.size(), 0.);
+  for (unsigned int i = 0; i < factors.size(); ++i)
+    for (const DofIndex unknown : free.unknowns(i))
+      motions[i] = std::max(motions[i], std::abs(du(unknown)));
+  dealii::Utilities::MPI::max(motions, communicator, motions);
+  bool is_raised = false;
+  // What is not held is sought only if it matters.
+  if (std::any_of(motions.begin(), motions.end(), [&](const double m) { return m > far * length; }))
+    {
+      const std::vector<unsigned int> loose = free.not_held(); // ascending
+      for (unsigned int i = 0; i < factors.size(); ++i)
+        if (motions[i] > far * length
+            && std::binary_search(loose.begin(), loose.end(), free.motions()[i].body))
+          {
+            factors[i] = (factors[i] + of_all) * std::max(growth, motions[i] / length);
+            is_raised  = true;
+          }
+    }
+  for (unsigned int i = 0; i < factors.size() && !is_raised; ++i)
+    if (motions[i] < near * length)
+      factors[i] = factors[i] > of_all ? decrease * factors[i] : 0.;
+  return is_raised;
+}
+
+template <int dim>
+void
+BodyHolds<dim>::add_to(const Vector &mass, Matrix &matrix) const
+{
+  for (unsigned int i = 0; i < factors.size(); ++i)
+    if (factors[i] > 0.)
+      for (const DofIndex unknown : free.unknowns(i))
+        matrix.add(unknown, unknown, factors[i] * mass(unknown));
+}
+
+template class BodyHolds<2>;
+template class BodyHolds<3>;
+} // namespace scree
