@@ -119,7 +119,7 @@ ContactClosing<dim>::close_without_friction()
       equilibrium.set_time(model.state().time, unused);
       return false;
     }
-  contact.laws().set_friction(Friction::none);
+  contact.laws().resolve_overlap(std::vector<double>(contact.pairs().size(), 0.));
   bool                is_closed = stepper.solve(u).converged();
   MaterialPoints<dim> points;
   if (is_closed && model.is_moving())
@@ -131,7 +131,7 @@ ContactClosing<dim>::close_without_friction()
     }
   if (is_closed)
     equilibrium.accept_as_transfer(u, model.state().contact);
-  contact.laws().set_friction(Friction::of_law);
+  contact.laws().resolve_overlap({});
   equilibrium.set_time(model.state().time, unused);
   if (!is_closed)
     return false;

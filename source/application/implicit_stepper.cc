@@ -437,29 +437,28 @@ ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &st
   DiscreteProblem<dim> &problem = model.problem();
   Vector                v(start);
   const double          pressed_before = pressed;
-  problem.contact().laws().set_friction(Friction::sticks);
+  problem.contact().laws().set_sticks(true);
   Vector r(v);
   problem.equilibrium().residual(v, model.state().contact, r);
   const NewtonResult sticking = this->newton(false, rough * r.l2_norm()).solve(v);
-  problem.contact().laws().set_friction(Friction::of_law);
-  NewtonResult best = result;
-  best.iterations += sticking.iterations;
+  problem.contact().laws().set_sticks(false);
+  unsigned int n_iterations = result.iterations + sticking.iterations;
+  NewtonResult best         = sticking;
   if (sticking.converged())
     {
-      const NewtonResult again = solve_enforced(newton, v);
-      best.iterations += again.iterations;
-      if (again.converged()
-          && (!has_lost_contact(again) || largest_free_motion(v) < largest_free_motion(u)))
-        {
-          u                    = v;
-          const unsigned int n = best.iterations;
-          best                 = again;
-          best.iterations      = n;
-          return best;
-        }
+      best = solve_enforced(newton, v);
+      n_iterations += best.iterations;
     }
-  pressed = pressed_before;
-  problem.equilibrium().residual(u, model.state().contact, v);
+  if (best.converged()
+      && (!has_lost_contact(best) || largest_free_motion(v) < largest_free_motion(u)))
+    u = v;
+  else
+    {
+      best    = result;
+      pressed = pressed_before;
+      problem.equilibrium().residual(u, model.state().contact, v);
+    }
+  best.iterations = n_iterations;
   return best;
 }
 

@@ -44,9 +44,9 @@ ContactLaws<dim>::acting_law(const unsigned int pair) const
   const ContactLaw &law                 = *of_pairs[pair].law.kind;
   if (law.glues)
     return law;
-  if (!pair_allowances.empty() || friction == Friction::none)
+  if (!pair_allowances.empty())
     return frictionless;
-  return friction == Friction::sticks && law.bound && law.slides ? stick : law;
+  return all_stick && law.bound && law.slides ? stick : law;
 }
 
 template <int dim>

@@ -216,7 +216,7 @@ is_in_balance(const DiscreteProblem<dim> &problem, const typename Equilibrium<di
   if (!(residual
         <= std::max(round_off * equilibrium.force_scale(), n_rounded * equilibrium.round_off())))
     return false;
-  const auto               balances = problem.equilibrium().balance(u);
+  const auto               balances = equilibrium.balance(u);
   const BalanceLimits<dim> limits(problem, balances, newton);
   return std::all_of(balances.begin(), balances.end(), [&](const BodyBalance<dim> &balance) {
     return limits.allow_force(balance) && limits.allow_moment(balance);

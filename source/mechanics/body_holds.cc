@@ -1,9 +1,6 @@
 #include <scree/mechanics/body_holds.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -17,9 +14,8 @@ constexpr double decrease = 0.3;
 } // namespace
 
 template <int dim>
-BodyHolds<dim>::BodyHolds(const FreeBodies<dim> &free, const MPI_Comm communicator)
+BodyHolds<dim>::BodyHolds(const FreeBodies<dim> &free)
     : free(free)
-    , communicator(communicator)
 {
   release();
 }
@@ -42,24 +38,15 @@ template <int dim>
 bool
 BodyHolds<dim>::adapt(const Vector &du, const double length, const double of_all)
 {
-  std::vector<double> motions(factors.size(), 0.);
+  const std::vector<double> motions = free.largest_components(du),
+                            loose   = free.of_not_held(motions, far * length);
+  bool is_raised                    = false;
   for (unsigned int i = 0; i < factors.size(); ++i)
-    for (const DofIndex unknown : free.unknowns(i))
-      motions[i] = std::max(motions[i], std::abs(du(unknown)));
-  dealii::Utilities::MPI::max(motions, communicator, motions);
-  bool is_raised = false;
-  // What is not held is sought only if it matters.
-  if (std::any_of(motions.begin(), motions.end(), [&](const double m) { return m > far * length; }))
-    {
-      const std::vector<unsigned int> loose = free.not_held(); // ascending
-      for (unsigned int i = 0; i < factors.size(); ++i)
-        if (motions[i] > far * length
-            && std::binary_search(loose.begin(), loose.end(), free.motions()[i].body))
-          {
-            factors[i] = (factors[i] + of_all) * std::max(growth, motions[i] / length);
-            is_raised  = true;
-          }
-    }
+    if (loose[i] > 0.)
+      {
+        factors[i] = (factors[i] + of_all) * std::max(growth, loose[i] / length);
+        is_raised  = true;
+      }
   for (unsigned int i = 0; i < factors.size() && !is_raised; ++i)
     if (motions[i] < near * length)
       factors[i] = factors[i] > of_all ? decrease * factors[i] : 0.;

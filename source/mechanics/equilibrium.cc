@@ -32,7 +32,7 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
     , rigid(space, bodies, contact)
     , free(space, bodies, supports, boundary_terms, contact, kinematics.rotations_are_finite(),
            !is_static)
-    , holds(free, space.grid.communicator())
+    , holds(free)
     , ledger(space, bodies, kinematics, boundary_terms, contact, supports, rigid)
     , seen_by_bulk(space)
 {

@@ -62,20 +62,10 @@ template <int dim>
 void
 Equilibrium<dim>::shorten(Vector &du, const double length) const
 {
-  const auto largest_among = [&](const auto &is_meant) {
-    double largest = 0.;
-    for (unsigned int i = 0; i < free_bodies().size(); ++i)
-      if (is_meant(free_bodies()[i].body))
-        for (const DofIndex unknown : free.unknowns(i))
-          largest = std::max(largest, std::abs(du(unknown)));
-    return dealii::Utilities::MPI::max(largest, space.grid.communicator());
-  };
-  // What is not held is sought only if it matters; inertia holds everything.
-  if (has_inertia() || largest_among([](const unsigned int) { return true; }) <= length)
+  if (has_inertia() || free_bodies().empty()) // inertia holds everything
     return;
-  const std::vector<unsigned int> loose   = free.not_held(); // ascending
-  const double                    largest = largest_among(
-    [&](const unsigned int body) { return std::binary_search(loose.begin(), loose.end(), body); });
+  const auto   motions = free.of_not_held(free.largest_components(du), length);
+  const double largest = *std::max_element(motions.begin(), motions.end());
   if (largest > length)
     du *= length / largest;
 }

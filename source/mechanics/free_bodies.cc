@@ -356,6 +356,33 @@ FreeBodies<dim>::not_held() const
 }
 
 template <int dim>
+std::vector<double>
+FreeBodies<dim>::largest_components(const Vector &u) const
+{
+  std::vector<double> result(free_motions.size(), 0.);
+  for (unsigned int i = 0; i < free_motions.size(); ++i)
+    for (const DofIndex unknown : free_unknowns[i])
+      result[i] = std::max(result[i], std::abs(u(unknown)));
+  dealii::Utilities::MPI::max(result, communicator, result);
+  return result;
+}
+
+template <int dim>
+std::vector<double>
+FreeBodies<dim>::of_not_held(std::vector<double> values, const double limit) const
+{
+  // What is not held is sought only if it matters.
+  const bool matters
+    = std::any_of(values.begin(), values.end(), [=](const double v) { return v > limit; });
+  const std::vector<unsigned int> loose = matters ? not_held() : std::vector<unsigned int>();
+  for (unsigned int i = 0; i < values.size(); ++i)
+    if (values[i] <= limit
+        || !std::binary_search(loose.begin(), loose.end(), free_motions[i].body)) // ascending
+      values[i] = 0.;
+  return values;
+}
+
+template <int dim>
 typename FreeBodies<dim>::Coordinates
 FreeBodies<dim>::resultants(const dealii::TrilinosWrappers::MPI::Vector &forces) const
 {

@@ -64,6 +64,14 @@ are_numbers(const std::vector<double> &values)
                      [](const double x) { return std::abs(x) < 1e100; });
 }
 
+template <int dim>
+double
+diagonal(const dealii::BoundingBox<dim> &box)
+{
+  const auto [lower, upper] = box.get_boundary_points();
+  return lower.distance(upper);
+}
+
 /** That points belong to bodies, are near the grid and no larger than it: else they would be
  * searched for in vain, or divided without end. */
 template <int dim>
@@ -71,8 +79,7 @@ void
 require_sound(const MaterialPoints<dim> &points, const std::size_t n_bodies,
               const dealii::BoundingBox<dim> &box, const std::string &directory)
 {
-  const auto [lower, upper] = box.get_boundary_points();
-  const double reach        = lower.distance(upper);
+  const double reach = diagonal(box);
   for (std::size_t i = 0; i < points.size(); ++i)
     require(points.body[i] < n_bodies && points.position[i].distance(box.center()) < reach
               && points.spacing(i) < reach,
@@ -86,8 +93,7 @@ void
 require_sound(const ContactMemory<dim> &memory, const dealii::BoundingBox<dim> &box,
               const std::string &directory)
 {
-  const auto [lower, upper] = box.get_boundary_points();
-  const double reach        = lower.distance(upper);
+  const double reach = diagonal(box);
   for (const std::size_t size :
        {memory.body_a.size(), memory.body_b.size(), memory.normal.size(), memory.weight.size(),
         memory.cell_size.size(), memory.tau.size(), memory.pressure.size()})
@@ -103,8 +109,7 @@ template <int dim>
 double
 farthest_motion(const dealii::BoundingBox<dim> &box)
 {
-  const auto [lower, upper] = box.get_boundary_points();
-  return 1e3 * (lower.distance(upper) + lower.norm());
+  return 1e3 * (diagonal(box) + box.get_boundary_points().first.norm());
 }
 
 /** That there is a motion of each body, as the next step asks for it. */

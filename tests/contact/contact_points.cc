@@ -251,7 +251,7 @@ TEST(ContactPoints, FrozenBoundsKeepTractions)
   });
   for (const bool sticks : {false, true})
     {
-      contact.laws().set_friction(sticks ? Friction::sticks : Friction::of_law);
+      contact.laws().set_sticks(sticks);
       contact.evaluate(u, history);
       const auto before = contact.responses();
       contact.laws().freeze(contact.points(), before);

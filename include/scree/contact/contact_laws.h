@@ -8,14 +8,6 @@
 
 namespace scree
 {
-/** What becomes for a while of friction between bodies that can slide. */
-enum class Friction
-{
-  of_law, //!< nothing
-  sticks, //!< what touches sticks, whatever its pressure
-  none
-};
-
 /**
  * The laws between all pairs, and what the solver changes in them for a while. Points are given by
  * their numbers, those of a pair one after the other: each law is asked once for all of them.
@@ -52,10 +44,10 @@ public:
     pair_allowances = allowances;
   }
 
-  /** What is tied stays tied. */
-  void set_friction(const Friction now)
+  /** Whether what can slide with friction sticks for a while, whatever its pressure. */
+  void set_sticks(const bool sticks)
   {
-    friction = now;
+    all_stick = sticks;
   }
 
   /** Keeps the bounds b(p) and the f of these responses of all points until unfreeze(). */
@@ -82,7 +74,7 @@ private:
   std::vector<ContactPair> of_pairs;
   std::vector<double>      pair_allowances; //!< while overlap is resolved
   bool                     touching_holds = true;
-  Friction                 friction       = Friction::of_law;
+  bool                     all_stick      = false;
   std::vector<double>      frozen_bounds, frozen_closed_parts; //!< of points; empty: not frozen
 };
 } // namespace scree

@@ -25,7 +25,7 @@ public:
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
   /** `free` outlives it. No body is held. */
-  BodyHolds(const FreeBodies<dim> &free, const MPI_Comm communicator);
+  explicit BodyHolds(const FreeBodies<dim> &free);
 
   /** No body is held. */
   void release();
@@ -49,7 +49,6 @@ public:
 
 private:
   const FreeBodies<dim> &free;
-  MPI_Comm               communicator;
   std::vector<double>    factors; //!< s_b, by free body
 };
 } // namespace scree

@@ -92,6 +92,12 @@ public:
    * (collective). */
   std::vector<unsigned int> not_held() const;
 
+  /** The largest component of `u`, without ghosts, on each free body (collective). */
+  std::vector<double> largest_components(const Vector &u) const;
+
+  /** Values above `limit` of free bodies that are not_held(), 0 of all others (collective). */
+  std::vector<double> of_not_held(std::vector<double> values, const double limit) const;
+
   /**
    * Resultants of forces: what they do on the coordinates; zero where that is round-off, below
    * 1e-10 of the sum of magnitudes (collective).
