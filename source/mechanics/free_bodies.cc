@@ -53,9 +53,12 @@ FreeBodies<dim>::FreeBodies(const DisplacementSpace<dim> &space,
 {
   const std::vector<Motions> motions(bodies.begin(), bodies.end());
   const auto                 held = resistance_of_supports(motions);
-  for (unsigned int b = 0; b < bodies.size() && !has_inertia; ++b)
+  for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const double      trace = held[b].trace();
+      const double trace = held[b].trace();
+      is_unsupported.push_back(trace == 0.);
+      if (has_inertia)
+        continue;
       const DenseMatrix basis = trace == 0. ? DenseMatrix(dealii::IdentityMatrix(held[b].m()))
                                             : null_space(held[b], negligible * trace);
       if (basis.n() == 0)

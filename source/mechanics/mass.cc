@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/base/joint_sum.h>
+#include <scree/mechanics/added_spin.h>
 #include <scree/mechanics/mass.h>
 #include <scree/mechanics/resultant.h>
 
@@ -356,6 +357,44 @@ Mass<dim>::momenta(const Vector &u, const Rates &rates, const Vectors &motion,
   for (const auto &body : rigid_masses.bodies())
     result[body.body] = body.momentum(pose(body, where), rigid_masses.read(body, v, a));
   return result;
+}
+
+template <int dim>
+void
+Mass<dim>::take_off_spins(const std::vector<bool> &turns_freely, const Vector &d, const Vector &w,
+                          Vector &velocity) const
+{
+  if (std::count(turns_freely.begin(), turns_freely.end(), true) == 0)
+    return;
+  std::vector<AddedSpin<dim>> spins(bodies.size());
+  const Vectors               motions = at_points(d), impulses = at_points(w);
+  for (std::size_t p = 0; p < mass_points.places.size(); ++p)
+    spins[space.cells()[mass_points.places[p].active_cell].body].add(
+      mass_points.masses[p], mass_points.positions[p] + motions[p], motions[p], impulses[p]);
+  JointSum sum;
+  for (auto &spin : spins)
+    spin.add_to(sum);
+  sum.reduce(space.grid.communicator());
+  for (auto &spin : spins)
+    spin.finish();
+  Vector       change(space.owned(), space.grid.communicator());
+  const Vector moved = with_ghosts(d);
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes && turns_freely[space.cells()[a].body]; ++i)
+      {
+        const DofIndex node = space.nodes(a)[i];
+        if (!space.owned().is_element(node))
+          continue;
+        dealii::Point<dim> x = space.position(a, space.basis.node(i));
+        for (unsigned int k = 0; k < dim; ++k)
+          x[k] += moved(node + k);
+        const dealii::Tensor<1, dim> v = spins[space.cells()[a].body].velocity(x);
+        for (unsigned int k = 0; k < dim; ++k)
+          change(node + k) = v[k];
+      }
+  change.compress(dealii::VectorOperation::insert);
+  space.hanging_constraints().set_zero(change);
+  velocity -= change;
 }
 
 template class Mass<2>;

@@ -39,9 +39,12 @@ rates_at_end(const DiscreteProblem<dim> &problem, const TimeScheme<dim> &scheme,
 {
   const Equilibrium<dim> &equilibrium = problem.equilibrium();
   if (!equilibrium.has_inertia())
-    return scheme.rates(nullptr, state, u, u, time);
-  Rates result
-    = scheme.rates(problem.mass.get(), state, u, equilibrium.accelerations_by_contact(u), time);
+    return scheme.rates(nullptr, state, u, u, {}, time);
+  std::vector<bool> turns_freely = equilibrium.free_motions().unsupported();
+  for (unsigned int b = 0; b < turns_freely.size() && !problem.is_moving(); ++b)
+    turns_freely[b] = turns_freely[b] && problem.bodies[b].is_rigid();
+  Rates result = scheme.rates(problem.mass.get(), state, u, equilibrium.accelerations_by_contact(u),
+                              turns_freely, time);
   set_prescribed_rates(equilibrium, time, time - state.time, &state.predictor.rates, result);
   result.forces = equilibrium.forces_without_inertia();
   return result;

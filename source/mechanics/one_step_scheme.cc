@@ -1,3 +1,4 @@
+#include <scree/mechanics/added_spin.h>
 #include <scree/mechanics/one_step_scheme.h>
 
 #include <cmath>
@@ -17,6 +18,14 @@ combined(const StepFormula::Combination              &combination,
   return result;
 }
 } // namespace
+
+StepFormula::Combination
+StepFormula::start_velocity() const
+{
+  const double of_end = velocity.motion / acceleration.motion;
+  return {0., velocity.velocity - of_end * acceleration.velocity,
+          velocity.acceleration - of_end * acceleration.acceleration};
+}
 
 StepFormula
 newmark(const double dt, const double beta, const double gamma)
@@ -103,7 +112,8 @@ OneStepScheme<dim>::inertia(const std::shared_ptr<const Mass<dim>> &mass, const 
 template <int dim>
 Rates
 OneStepScheme<dim>::rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-                          const Vector &by_contact, const double time) const
+                          const Vector &by_contact, const std::vector<bool> &turns_freely,
+                          const double time) const
 {
   const StepFormula of_step = formula(time - state.time);
   const auto       &before  = state.predictor.rates;
@@ -113,20 +123,36 @@ OneStepScheme<dim>::rates(const Mass<dim> *mass, const State<dim> &state, const 
                before.forces};
   result.velocity.add(of_step.velocity_by_contact, by_contact);
   result.acceleration.add(of_step.acceleration_by_contact, by_contact);
-  const Vector where = mass->with_ghosts(state.displacement), there = mass->with_ghosts(u),
-               of_contact = mass->with_ghosts(by_contact), v = mass->with_ghosts(before.velocity),
-               a = mass->with_ghosts(before.acceleration);
-  for (const auto &body : mass->rigid().bodies())
+  if (of_step.balances_at_end())
+    mass->take_off_spins(turns_freely, d, combined(of_step.start_velocity(), d, before),
+                         result.velocity);
+  set_rates_of_rigid(of_step, *mass, state, u, by_contact, turns_freely, result);
+  return result;
+}
+
+template <int dim>
+void
+OneStepScheme<dim>::set_rates_of_rigid(const StepFormula &of_step, const Mass<dim> &mass,
+                                       const State<dim> &state, const Vector &u,
+                                       const Vector            &by_contact,
+                                       const std::vector<bool> &turns_freely, Rates &rates) const
+{
+  const auto  &before = state.predictor.rates;
+  const Vector where = mass.with_ghosts(state.displacement), there = mass.with_ghosts(u),
+               of_contact = mass.with_ghosts(by_contact), v = mass.with_ghosts(before.velocity),
+               a = mass.with_ghosts(before.acceleration);
+  for (const auto &body : mass.rigid().bodies())
     {
-      const auto pose = mass->pose(body, where), next = mass->pose(body, there);
-      const auto motion     = mass->rigid().read(body, v, a);
+      const auto pose = mass.pose(body, where), next = mass.pose(body, there);
+      const auto motion     = mass.rigid().read(body, v, a);
       auto       velocities = body.velocities(pose, motion),
            accelerations    = body.accelerations(pose, motion);
       const auto x_n = body.positions(pose), x = body.positions(next);
-      auto       from_rest = mass->rigid().read(body, of_contact, of_contact);
+      auto       from_rest = mass.rigid().read(body, of_contact, of_contact);
       from_rest.velocity   = {};
       from_rest.spin       = {};
-      const auto a_c       = body.accelerations(next, from_rest);
+      const auto     a_c   = body.accelerations(next, from_rest);
+      AddedSpin<dim> spin;
       for (unsigned int p = 0; p < x.size(); ++p)
         {
           const dealii::Tensor<1, dim> step = x[p] - x_n[p], v_n = velocities[p],
@@ -134,13 +160,17 @@ OneStepScheme<dim>::rates(const Mass<dim> *mass, const State<dim> &state, const 
           velocities[p] = of_step.velocity(step, v_n, a_n) + of_step.velocity_by_contact * a_c[p];
           accelerations[p]
             = of_step.acceleration(step, v_n, a_n) + of_step.acceleration_by_contact * a_c[p];
+          spin.add(1., dealii::Point<dim>(x[p]), step, of_step.start_velocity()(step, v_n, a_n));
         }
-      mass->rigid().write(body, body.rates(next, velocities, accelerations), result.velocity,
-                          result.acceleration);
+      spin.finish();
+      const bool has_spin = of_step.balances_at_end() && turns_freely[body.body];
+      for (unsigned int p = 0; p < x.size() && has_spin; ++p)
+        velocities[p] -= spin.velocity(dealii::Point<dim>(x[p]));
+      mass.rigid().write(body, body.rates(next, velocities, accelerations), rates.velocity,
+                         rates.acceleration);
     }
-  for (Vector *vector : {&result.velocity, &result.acceleration})
+  for (Vector *vector : {&rates.velocity, &rates.acceleration})
     vector->compress(dealii::VectorOperation::insert);
-  return result;
 }
 
 template class OneStepScheme<2>;

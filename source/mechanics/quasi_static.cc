@@ -23,7 +23,7 @@ QuasiStatic<dim>::inertia(const std::shared_ptr<const Mass<dim>> &, const State<
 template <int dim>
 Rates
 QuasiStatic<dim>::rates(const Mass<dim> *, const State<dim> &state, const Vector &u, const Vector &,
-                        const double time) const
+                        const std::vector<bool> &, const double time) const
 {
   if (time == state.time) // The time has come there with an earlier displacement.
     return {};

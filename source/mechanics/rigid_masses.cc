@@ -39,27 +39,33 @@ mean(const Values &values)
   return result;
 }
 
-/** The spin w of points about their mean with sum r x (w x r) = L. */
+/** sum r r^T */
 template <int dim, typename Vectors>
-dealii::Tensor<1, 3>
-spin_of(const Vectors &arms, const dealii::Tensor<1, 3> &L)
+dealii::Tensor<2, dim>
+second_moments(const Vectors &arms)
 {
-  dealii::Tensor<2, 3> J;
+  dealii::Tensor<2, dim> result;
   for (const auto &arm : arms)
-    {
-      const auto r = in_space<dim>(arm);
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          J[i][i] += r * r;
-          for (unsigned int j = 0; j < 3; ++j)
-            J[i][j] -= r[i] * r[j];
-        }
-    }
-  if (dim == 2) // about z
-    return dealii::Tensor<1, 3>({0., 0., L[2] / J[2][2]});
-  return dealii::invert(J) * L;
+    result += dealii::outer_product(arm, arm);
+  return result;
 }
 } // namespace
+
+template <int dim>
+dealii::Tensor<1, 3>
+spin_of(const dealii::Tensor<2, dim> &second, const dealii::Tensor<1, 3> &L)
+{
+  if (dim == 2) // about z
+    return dealii::Tensor<1, 3>({0., 0., L[2] / trace(second)});
+  dealii::Tensor<2, 3> J;
+  for (unsigned int i = 0; i < dim; ++i)
+    {
+      J[i][i] += trace(second);
+      for (unsigned int j = 0; j < dim; ++j)
+        J[i][j] -= second[i][j];
+    }
+  return dealii::invert(J) * L;
+}
 
 template <int dim>
 dealii::Tensor<1, dim>
@@ -120,12 +126,13 @@ RigidMasses<dim>::OfBody::rates(const RigidPose<dim> &pose, const Vectors &veloc
       L += moment_of<dim>(arms[i], velocities[i]);
       dL += moment_of<dim>(arms[i], accelerations[i]);
     }
-  RigidRates<dim> result;
-  result.spin = spin_of<dim>(arms, L);
+  const dealii::Tensor<2, dim> second = second_moments<dim>(arms);
+  RigidRates<dim>              result;
+  result.spin = spin_of<dim>(second, L);
   for (const auto &arm : arms) // r x (w x (w x r))
     dL -= dealii::cross_product_3d(
       in_space<dim>(arm), in_space<dim>(turned<dim>(result.spin, turned<dim>(result.spin, arm))));
-  result.angular_acceleration = spin_of<dim>(arms, dL);
+  result.angular_acceleration = spin_of<dim>(second, dL);
   result.velocity             = mean<dim>(velocities) + turned<dim>(result.spin, reference);
   result.acceleration         = mean<dim>(accelerations)
                         + turned<dim>(result.angular_acceleration, reference)
@@ -299,6 +306,8 @@ RigidMasses<dim>::write(const OfBody &body, const RigidRates<dim> &rates, Vector
     }
 }
 
+template dealii::Tensor<1, 3> spin_of(const dealii::Tensor<2, 2> &, const dealii::Tensor<1, 3> &);
+template dealii::Tensor<1, 3> spin_of(const dealii::Tensor<2, 3> &, const dealii::Tensor<1, 3> &);
 template dealii::Tensor<1, 2> turned(const dealii::Tensor<1, 3> &, const dealii::Tensor<1, 2> &);
 template dealii::Tensor<1, 3> turned(const dealii::Tensor<1, 3> &, const dealii::Tensor<1, 3> &);
 template class RigidMasses<2>;

@@ -2,38 +2,16 @@
 
 #include <scree/contact/contact_points.h>
 #include <scree/mechanics/boundary_terms.h>
+#include <scree/mechanics/free_motion.h>
 #include <scree/mechanics/rigid_motion.h>
 #include <scree/mechanics/strong_supports.h>
 
 #include <deal.II/lac/sparsity_pattern.h>
 
-#include <string>
 #include <vector>
 
 namespace scree
 {
-/** How a body is held before contact: rigid motions that nothing but contact resists. */
-struct FreeMotion
-{
-  unsigned int body;
-  unsigned int n_free; //!< number of free rigid motions
-};
-
-/** A motion of a free body as a whole. */
-template <int dim>
-struct LooseMotion
-{
-  unsigned int           body;
-  double                 size;      //!< largest displacement over the body's box, of 1 for all [-]
-  bool                   turns;     //!< a rotation, else a translation
-  dealii::Point<dim>     centre;    //!< of the rotation [L]
-  dealii::Tensor<1, dim> direction; //!< of the translation; in 3D the axis of the rotation
-  double                 sense;     //!< of the rotation in 2D: 1 counter-clockwise, -1 clockwise
-
-  /** "moves along (1, 0)", "turns about (0.5, 0)". */
-  std::string in_words() const;
-};
-
 /**
  * Bodies that supports do not hold, and what contact does about their rigid motions. Contact
  * couples bodies, so that all motions are looked at together: the coordinates are those of the
@@ -64,6 +42,12 @@ public:
   const std::vector<FreeMotion> &motions() const
   {
     return free_motions;
+  }
+
+  /** Whether nothing but contact and inertia resists any motion of a body. */
+  const std::vector<bool> &unsupported() const
+  {
+    return is_unsupported;
   }
 
   /**
@@ -233,6 +217,7 @@ private:
   double                        cell_size = 0.; //!< largest of the contact points [L]
   MPI_Comm                      communicator;
   std::vector<FreeMotion>       free_motions;
+  std::vector<bool>             is_unsupported; //!< each body
   // Of the free bodies.
   std::vector<Motions>                         rigid_motions;
   std::vector<dealii::FullMatrix<double>>      bases; //!< columns: free motions in the rigid ones

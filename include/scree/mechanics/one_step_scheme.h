@@ -33,6 +33,15 @@ struct StepFormula
   double      initial_share       = 0.; //!< of r(u_n), see Rates::forces
   double      contact_weight      = 1.;
   double      velocity_by_contact = 0., acceleration_by_contact = -1.; //!< factors of a_c
+
+  /** M a = r(u), so that the moments of M a are those of forces. */
+  bool balances_at_end() const
+  {
+    return initial_share == 0.;
+  }
+
+  /** w = v_n + (factor) a_n of v = w + (factor) a + (factor) a_c, see AddedSpin. */
+  Combination start_velocity() const;
 };
 
 /**
@@ -70,9 +79,15 @@ public:
   Inertia<dim> inertia(const std::shared_ptr<const Mass<dim>> &mass, const State<dim> &state,
                        const double time) const override;
   Rates        rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-                     const Vector &by_contact, const double time) const override;
+                     const Vector &by_contact, const std::vector<bool> &turns_freely,
+                     const double time) const override;
 
 private:
+  /** What rates() does to rigid bodies. */
+  void set_rates_of_rigid(const StepFormula &of_step, const Mass<dim> &mass,
+                          const State<dim> &state, const Vector &u, const Vector &by_contact,
+                          const std::vector<bool> &turns_freely, Rates &rates) const;
+
   const std::function<StepFormula(double)> formula;
 };
 } // namespace scree

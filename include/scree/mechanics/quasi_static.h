@@ -18,6 +18,7 @@ public:
                        const double time) const override;
   /** Without an acceleration. */
   Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-              const Vector &by_contact, const double time) const override;
+              const Vector &by_contact, const std::vector<bool> &turns_freely,
+              const double time) const override;
 };
 } // namespace scree

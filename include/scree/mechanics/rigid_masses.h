@@ -24,6 +24,10 @@ struct RigidRates
 template <int dim>
 dealii::Tensor<1, dim> turned(const dealii::Tensor<1, 3> &w, const dealii::Tensor<1, dim> &r);
 
+/** The spin w with sum m r x (w x r) = L of masses with the second moments sum m r r^T. */
+template <int dim>
+dealii::Tensor<1, 3> spin_of(const dealii::Tensor<2, dim> &second, const dealii::Tensor<1, 3> &L);
+
 /** Linear and angular momentum. */
 template <int dim>
 struct Momentum

@@ -36,10 +36,12 @@ public:
    * Velocity and acceleration at the end of a step to `time`, where the displacement is u; forces
    * as at its start.
    *
-   * @param by_contact accelerations that contact causes there; of no use without inertia
+   * @param by_contact   accelerations that contact causes there; of no use without inertia
+   * @param turns_freely bodies that get no AddedSpin
    */
   virtual Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-                      const Vector &by_contact, const double time) const = 0;
+                      const Vector &by_contact, const std::vector<bool> &turns_freely,
+                      const double time) const = 0;
 };
 
 /** The names that TimeSchemeParameters::scheme may have. */
