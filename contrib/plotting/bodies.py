@@ -201,6 +201,7 @@ class BodyPicture:
         self.values = values if is_raw or field == "plastic_zone" else recovered(mesh, values)
         coloured = self.values[self.shown] if self.shown.any() else np.zeros(1)
         self.extremes = coloured.min(), coloured.max()
+        self.largest_in_file = values[self.shown].max() if self.shown.any() else 0.0
         self.limits = range_of_colours or limits(coloured)
 
     @property
@@ -237,7 +238,10 @@ class BodyPicture:
         low, high = colours.get_clim()
         label = self.run.units.label(LABELS.get(self.field, self.field.replace("_", " ")), quantity_of(self.field))
         bar = figure.colorbar(colours, ax=axes, label=label, extend=extend(self.extremes, low, high), shrink=0.85, pad=0.02)
-        bar.ax.set_title(f"max {short(self.extremes[1])}", fontsize=9)
+        largest = f"max {short(self.extremes[1])}"
+        if abs(self.largest_in_file - self.extremes[1]) > 0.01 * abs(self.largest_in_file):
+            largest += f"\n(not smoothed\n{short(self.largest_in_file)})"
+        bar.ax.set_title(largest, fontsize=9)
         if self.extremes[0] < 0.0:
             bar.ax.set_xlabel(f"min {short(self.extremes[0])}", fontsize=9)
 

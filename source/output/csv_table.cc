@@ -133,14 +133,20 @@ bool
 CsvTable::flush()
 {
   require_in_place();
-  while (!pending.empty())
+  std::size_t n_written = 0;
+  bool        goes_on   = true;
+  while (goes_on && n_written < pending.size())
     {
-      const ssize_t n = write(file, pending.data(), pending.size());
-      if (n > 0)
-        pending.erase(0, n);
-      else if (n == 0 || errno != EINTR)
-        return false;
+      const ssize_t n = write(file, pending.data() + n_written, pending.size() - n_written);
+      n_written += std::max<ssize_t>(n, 0);
+      goes_on = n > 0 || (n < 0 && errno == EINTR);
     }
-  return true;
+  // Rows are there as a whole or not at all.
+  std::size_t n_whole = pending.substr(0, n_written).rfind('\n') + 1;
+  if (struct stat now; n_whole < n_written && fstat(file, &now) == 0
+                       && ftruncate(file, now.st_size - (n_written - n_whole)) != 0)
+    n_whole = n_written;
+  pending.erase(0, n_whole);
+  return pending.empty();
 }
 } // namespace scree

@@ -8,9 +8,11 @@
 #include <scree/output/csv_table.h>
 #include <scree/output/probes.h>
 #include <scree/output/result_files.h>
+#include <scree/output/vtu_files.h>
 
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
@@ -109,12 +111,35 @@ TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)
   table.add_row({3., 4.});
   table.add_row({5., 6.});
   EXPECT_FALSE(table.flush());
-  EXPECT_EQ(content(name).size(), 10u);
+  EXPECT_EQ(content(name), "a,b\n1,2\n");
   setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, handler);
   table.add_row({7., 8.});
   EXPECT_TRUE(table.flush());
   EXPECT_EQ(content(name), "a,b\n1,2\n3,4\n5,6\n7,8\n");
+}
+
+TEST(VtuFiles, AFullDiskLeavesWhatWasWhole)
+{
+  const Directory   directory;
+  const std::string name  = directory.path + "/records.pvd";
+  const auto        write = [&](const std::string &text) {
+    return write_file(name, [&](std::ostream &file) { file << text; });
+  };
+  EXPECT_TRUE(write("old"));
+  struct rlimit old;
+  getrlimit(RLIMIT_FSIZE, &old);
+  struct rlimit small = old;
+  small.rlim_cur      = 10;
+  const auto handler  = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_FALSE(write(std::string(100, 'x')));
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(content(name), "old");
+  EXPECT_FALSE(std::filesystem::exists(name + ".part"));
+  EXPECT_TRUE(write("new"));
+  EXPECT_EQ(content(name), "new");
 }
 
 TEST(CsvTable, AFileThatIsNoLongerThereIsAnError)

@@ -13,7 +13,10 @@
 
 namespace scree
 {
-/** Writes a file by f(stream); returns whether all of it was written. */
+/**
+ * Writes a file by f(stream), as FILE.part until it is whole; returns whether all of it was
+ * written. If not, an older one stays.
+ */
 template <typename F>
 bool
 write_file(const std::string &file_name, const F &f)
@@ -21,18 +24,25 @@ write_file(const std::string &file_name, const F &f)
   std::error_code error;
   const auto      status = std::filesystem::status(file_name, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    return false; // a pipe would be waited for
-  std::ofstream file(file_name);
+    return false;
+  const std::string part = file_name + ".part";
+  std::filesystem::remove(part, error); // a pipe would be waited for
+  std::ofstream file(part);
   try
     {
       f(file);
     }
   catch (const dealii::ExcIO &)
     {
-      return false;
+      file.setstate(std::ios::failbit);
     }
   file.close();
-  return file.good();
+  if (file.good())
+    std::filesystem::rename(part, file_name, error);
+  if (file.good() && !error)
+    return true;
+  std::filesystem::remove(part, error);
+  return false;
 }
 
 /** A text as the value of an attribute in XML. */
