@@ -176,6 +176,14 @@ struct Newton::End
   const char  *format; //!< of the message: iteration, residual, tolerance
 };
 
+/** The iterate of the least residual near the tolerance. */
+struct Newton::Best
+{
+  Vector       u;
+  double       residual = std::numeric_limits<double>::infinity();
+  unsigned int number   = 0; //!< of the iteration
+};
+
 Newton::Newton(const NewtonParameters &parameters, const Hooks &hooks)
     : parameters(parameters)
     , hooks(hooks)
@@ -272,9 +280,33 @@ Newton::take_step(const double linear_tolerance, const double norm, const Vector
   return step;
 }
 
+bool
+Newton::is_best_in_balance(const bool is_last, NewtonIteration &iteration, Vector &u, Vector &r,
+                           Best &best) const
+{
+  if (!hooks.is_in_balance)
+    return false;
+  const bool is_near = iteration.residual <= round_off_factor * iteration.tolerance;
+  if (is_near && iteration.residual < best.residual)
+    best = {u, iteration.residual, iteration.number};
+  else if (std::isfinite(best.residual)
+           && (is_last || iteration.number == best.number + few_standing))
+    {
+      hooks.residual(best.u, r);
+      if (hooks.is_in_balance(best.u, best.residual))
+        {
+          u                  = best.u;
+          iteration.residual = best.residual;
+          return true;
+        }
+      hooks.residual(u, r);
+    }
+  return false;
+}
+
 std::optional<Newton::End>
-Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
-               const Vector &u, const Vector &r) const
+Newton::end_of(const std::vector<double> &residuals, NewtonIteration &iteration, Vector &u,
+               Vector &r, Best &best) const
 {
   const double residual = iteration.residual;
   if (std::isfinite(residual) && residual <= iteration.tolerance)
@@ -300,8 +332,12 @@ Newton::end_of(const NewtonIteration &iteration, const std::vector<double> &resi
   const std::size_t n         = residuals.size();
   const bool        goes_well = (n > 1 && residuals[n - 1] <= 0.1 * residuals[n - 2])
                          || (n > 2 && residuals[n - 1] <= 0.01 * residuals[n - 3]);
-  if (iteration.number >= parameters.max_iterations
-      || (iteration.number >= parameters.patience && !goes_well))
+  const bool is_last = iteration.number >= parameters.max_iterations
+                       || (iteration.number >= parameters.patience && !goes_well);
+  if (is_best_in_balance(is_last, iteration, u, r, best))
+    return End{NewtonStatus::converged_at_standstill,
+               "fell no further, in balance, in %u iterations, |r| = %.3e (tolerance %.3e)"};
+  if (is_last)
     return End{NewtonStatus::max_iterations,
                "not converged in %u iterations, |r| = %.3e (tolerance %.3e)"};
   return {};
@@ -311,6 +347,7 @@ NewtonResult
 Newton::solve(Vector &u) const
 {
   NewtonResult    result;
+  Best            best;
   NewtonIteration iteration;
   Progress        progress;
   Vector          r(u), du(u);
@@ -329,9 +366,10 @@ Newton::solve(Vector &u) const
       if (hooks.observe)
         hooks.observe(iteration);
 
-      if (const auto end = end_of(iteration, result.residuals, u, r))
+      if (const auto end = end_of(result.residuals, iteration, u, r, best))
         {
-          result.status = end->status;
+          result.residuals.back() = iteration.residual;
+          result.status           = end->status;
           result.message
             = in_words(end->format, iteration.number, iteration.residual, iteration.tolerance);
           return result;

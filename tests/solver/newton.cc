@@ -387,6 +387,33 @@ TEST(Newton, StandsStillInBalance)
   EXPECT_FALSE(answer(false).converged());
 }
 
+// A residual of 2e-8 at u = 1 that nothing after it comes near: contact at a gap of zero opens for
+// good.
+TEST(Newton, GoesBackToTheBestInBalance)
+{
+  const auto f = [](double u) {
+    const double distance = std::abs(u - 1);
+    return distance < 1e-9 ? -2e-8 : distance < 1e-6 ? -8e-5 : distance < 1e-3 ? 8e-5 : u - 1;
+  };
+  Newton::Hooks hooks  = scalar(f, [](double) { return 1.; });
+  const auto    answer = [&](const bool is_in_balance, Vector &u) {
+    hooks.is_in_balance = [&](const Vector &at, const double residual) {
+      EXPECT_EQ(residual, 2e-8);
+      EXPECT_EQ(at(0), 1.);
+      return is_in_balance;
+    };
+    u = vector({0.});
+    return Newton(with(LineSearch::none), hooks).solve(u);
+  };
+  Vector             u        = vector({0.});
+  const NewtonResult accepted = answer(true, u);
+  EXPECT_EQ(accepted.status, NewtonStatus::converged_at_standstill) << accepted.message;
+  EXPECT_EQ(accepted.iterations, 4u);
+  EXPECT_EQ(accepted.residuals.back(), 2e-8);
+  EXPECT_EQ(u(0), 1.);
+  EXPECT_FALSE(answer(false, u).converged());
+}
+
 TEST(Newton, FailuresAreTold)
 {
   const auto one = [](double) { return 1.; };

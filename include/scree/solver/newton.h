@@ -33,8 +33,7 @@ struct NewtonParameters
   /** Of both methods together. */
   unsigned int max_iterations = 100;
 
-  /** Ends after so many, too, unless |r| falls to a tenth in each or a hundredth in two; no entry.
-   */
+  /** Ends after so many, too, unless |r| falls to a tenth or, in two, to a hundredth; no entry. */
   unsigned int patience = 0xffffffff;
 
   LineSearch line_search = LineSearch::work;
@@ -61,11 +60,8 @@ struct NewtonIteration
   /** The |r|_2 that would be accepted now. */
   double tolerance = 0;
 
-  /** |alpha du|_2 of the update, in the unit of the unknowns. */
-  double increment = 0;
-
-  /** The alpha of the update. */
-  double step_length = 1;
+  double increment   = 0; //!< |alpha du|_2 of the update, in the unit of the unknowns
+  double step_length = 1; //!< alpha of the update
 
   /** Residual evaluations that the line search added to the one of the full step. */
   unsigned int extra_evaluations = 0;
@@ -84,7 +80,8 @@ struct NewtonIteration
  * tolerance and the last |du|_2 was at most 1e-10 |u|_2, or if a hook says that only the accuracy
  * of the geometry is left. What did not fall below half of the least in 8 iterations, in 3 below
  * 100 times the tolerance, and is within twice of that, is accepted (converged_at_standstill) if a
- * hook says that all is in balance.
+ * hook says that all is in balance. So is the u of the least |r| below 100 times the tolerance, 3
+ * iterations later.
  *
  * *Line searches:* `residual` halves alpha, 8 times at most, until
  * |r(u + alpha du)| <= (1 - 1e-4 alpha) |r(u)| (Armijo with the merit function |r|), and further
@@ -203,10 +200,15 @@ private:
   struct Search;
   struct Progress;
   struct End;
+  struct Best;
 
   /** How the iteration ends here, if it does. */
-  std::optional<End> end_of(const NewtonIteration &iteration, const std::vector<double> &residuals,
-                            const Vector &u, const Vector &r) const;
+  std::optional<End> end_of(const std::vector<double> &residuals, NewtonIteration &iteration,
+                            Vector &u, Vector &r, Best &best) const;
+
+  /** Whether the best u is to be taken, then it is; notes it. */
+  bool is_best_in_balance(const bool is_last, NewtonIteration &iteration, Vector &u, Vector &r,
+                          Best &best) const;
 
   bool can_lag() const;
 
