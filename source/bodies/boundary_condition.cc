@@ -118,7 +118,7 @@ declare_shared_entries(BoundaryConditionParameters<dim> &p, std::vector<std::str
   section.formula(
     "Value", p.value,
     "One expression of x, y, z, t per component, separated by ';': displacement [L], "
-    "traction or pressure [force/area], spring stiffness, of t = 0 [force/area/L]; empty: "
+    "traction or pressure [force/L^2], spring stiffness, of t = 0 [force/L^3]; empty: "
     "zero. In it table(load.csv) is the value at t of a table (CSV) of times and values, linear in "
     "between.");
 }

@@ -156,7 +156,7 @@ Polygon::family()
 {
   return {{"polygon"},
           "polygon (2D)",
-          {{"Vertices", "Corners of % in order, either way round, as in 0,0; 1,0; 1,1", "[length]",
+          {{"Vertices", "Corners of % in order, either way round, as in 0,0; 1,0; 1,1", "[L]",
             std::vector<Point<2>>(), false, false},
            {"Vertices file", "File (CSV) with a corner per line in place of Vertices", "",
             std::string(), false, false, true},

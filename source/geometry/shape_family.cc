@@ -5,7 +5,7 @@ namespace scree
 ShapeEntry
 positive_length(const std::string &key, const std::string &text)
 {
-  return {key, text, "[length]", unset_number, true};
+  return {key, text, "[L]", unset_number, true};
 }
 
 ShapeEntry
@@ -27,7 +27,7 @@ corner_radius()
 {
   return {"Corner radius",
           "Radius of the corners, in 3D of the edges too, of %; unset: they are sharp",
-          "[length]",
+          "[L]",
           unset_number,
           true,
           false};
@@ -43,7 +43,7 @@ scale_of_file()
 ShapeEntry
 semi_axes_entry()
 {
-  return {"Semi-axes", "Half the widths of % along x, y (and z)", "[length]", std::vector<double>(),
+  return {"Semi-axes", "Half the widths of % along x, y (and z)", "[L]", std::vector<double>(),
           true};
 }
 } // namespace scree

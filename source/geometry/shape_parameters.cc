@@ -226,10 +226,10 @@ declare_motion(ShapeParameters<dim> &p, const ParameterSection &section)
   section.entry("Rotation angle", p.rotation_angle,
                 "Turns the shape by this angle [degrees], counter-clockwise.");
   section.entry("Rotation centre", p.rotation_centre,
-                "A point that the rotation leaves in place [length]; unset: the origin.");
+                "A point that the rotation leaves in place [L]; unset: the origin.");
   if constexpr (dim == 3)
     section.entry("Rotation axis", p.rotation_axis, "Axis of the rotation, of any length.");
-  section.entry("Translation", p.translation, "Moves the shape after the rotation [length].");
+  section.entry("Translation", p.translation, "Moves the shape after the rotation [L].");
 }
 
 template <int dim>

@@ -136,16 +136,16 @@ MaterialParameters::declare(const ParameterSection &section)
     "with "
     "the material); linear elastic incremental (stress increments on the geometry at the start of "
     "each step, without rotation).");
-  section.entry("Young's modulus", young, "E > 0 [force/length^2].");
+  section.entry("Young's modulus", young, "E > 0 [force/L^2].");
   section.entry("Poisson's ratio", poisson, "nu, -1 < nu < 0.5 [-].");
   section.entry("Yield stress", yield_stress,
-                "sigma_y > 0 in uniaxial stress, of laws called J2 [force/length^2].");
+                "sigma_y > 0 in uniaxial stress, of laws called J2 [force/L^2].");
   section.entry("Hardening modulus", hardening_modulus,
                 "H >= 0 of linear isotropic hardening, of laws called J2: the yield stress is "
-                "sigma_y + H alpha with the equivalent plastic strain alpha [force/length^2].");
+                "sigma_y + H alpha with the equivalent plastic strain alpha [force/L^2].");
   section.entry("Density", density,
                 "Mass per volume in the reference configuration, not negative "
-                "[mass/length^3]. Needed for body forces per mass and for inertia.");
+                "[mass/L^3]. Needed for body forces per mass and for inertia.");
   if (section.is_wrong("Law"))
     return;
   for (const Problem &problem : problems_of(*this))

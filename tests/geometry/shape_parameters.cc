@@ -200,8 +200,8 @@ TEST(ShapeFamilies, DocumentSharedEntriesTogether)
   parameters.declare(file.root().subsection("Shape", "A shape."));
   std::ostringstream text;
   file.write_markdown(text);
-  expect_contains(text.str(), "Centre of a disc, ellipse, ring or superellipse [length].");
-  expect_contains(text.str(), "Radius of a disc or capsule, outer radius of a ring [length].");
+  expect_contains(text.str(), "Centre of a disc, ellipse, ring or superellipse [L].");
+  expect_contains(text.str(), "Radius of a disc or capsule, outer radius of a ring [L].");
 }
 
 TEST(ShapeParameters, DocumentationEnds)

@@ -11,7 +11,7 @@ class Box : public Shape<dim>
 public:
   static ShapeFamily<dim> family();
 
-  /** @param radius of edges and corners [length], at most half of the shortest edge */
+  /** @param radius of edges and corners [L], at most half of the shortest edge */
   Box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper, const double radius = 0.);
 
   double signed_distance(const dealii::Point<dim> &x) const override;

@@ -20,7 +20,7 @@ public:
   /** The point x of the shape with the largest n.x, for a unit vector n. */
   virtual dealii::Tensor<1, dim> support(const dealii::Tensor<1, dim> &n) const = 0;
 
-  /** The radius of the ball about the origin that contains it [length]. */
+  /** The radius of the ball about the origin that contains it [L]. */
   virtual double outer_radius() const = 0;
 
   /** Whether it is that ball. */

@@ -15,7 +15,7 @@ namespace scree
 class RoundedPolygon : public Shape<2>
 {
 public:
-  /** @param radius [length] fits: see what_does_not_fit() */
+  /** @param radius [L] fits: see what_does_not_fit() */
   RoundedPolygon(const std::vector<dealii::Point<2>> &vertices, const double radius);
 
   double signed_distance(const dealii::Point<2> &x) const override;

@@ -17,7 +17,7 @@ struct ShapeEntry
    * this key and text, as in "a disc or ring".
    */
   std::string text;
-  std::string unit;                //!< as "[length]", or empty
+  std::string unit;                //!< as "[L]", or empty
   ShapeValue  unset;               //!< tells the kind of value
   bool        is_positive = false; //!< all its numbers must be
   bool        is_required = true;
@@ -26,12 +26,12 @@ struct ShapeEntry
 
 constexpr double unset_number = std::numeric_limits<double>::quiet_NaN();
 
-/** A number [length] greater than zero. */
+/** A number [L] greater than zero. */
 ShapeEntry positive_length(const std::string &key, const std::string &text);
 
 /** A point or, with another unit, a vector. */
 ShapeEntry coordinates(const std::string &key, const std::string &text,
-                       const std::string &unit = "[length]");
+                       const std::string &unit = "[L]");
 
 /** What declare_checksum() reads. */
 ShapeEntry checksum_entry();
