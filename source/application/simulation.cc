@@ -416,7 +416,11 @@ Simulation<dim>::resume(const Checkpoint<dim> &checkpoint)
   report.resume(checkpoint.report);
   results.resume(checkpoint.results, problem.equilibrium(), problem.contact());
   if (!checkpoint.warning.empty())
-    run_log.log.line("Warning: " + checkpoint.warning);
+    {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        set_damaged_aside(directory);
+      run_log.log.line("Warning: " + checkpoint.warning);
+    }
   run_log.log.line("Resumed after step " + std::to_string(step_control.n_accepted()) + ", time "
                    + short_number(time) + "; the checkpoint is of scree " + checkpoint.program);
   if (step_control.finished())

@@ -280,16 +280,17 @@ read_checkpoint_file(const std::string &directory, const unsigned int dimension)
   require(has_older, directory, warning + ", and there is no older one", anew);
   try
     {
-      CheckpointContents result{read_contents(older, dimension),
-                                warning + "; the one before it is used"};
-      // It must not take the place of the older one when the next one is written.
-      if (has_newest)
-        std::rename(newest.c_str(), (directory + "/checkpoint.damaged").c_str());
-      return result;
+      return {read_contents(older, dimension), warning + "; the one before it is used"};
     }
   catch (const Damage &damage)
     {
       throw UserError(directory, warning + "; " + older + " " + damage.what, anew);
     }
+}
+
+void
+set_damaged_aside(const std::string &directory)
+{
+  std::rename((directory + "/checkpoint").c_str(), (directory + "/checkpoint.damaged").c_str());
 }
 } // namespace scree

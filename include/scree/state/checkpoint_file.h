@@ -35,10 +35,15 @@ struct CheckpointContents
 };
 
 /**
- * Reads DIR/checkpoint, or DIR/checkpoint.old if that is missing or damaged. A damaged one is
- * renamed to DIR/checkpoint.damaged.
+ * Reads DIR/checkpoint, or DIR/checkpoint.old if that is missing or damaged.
  *
  * @throws UserError if there is none, none is undamaged, or it is of another format or dimension
  */
 CheckpointContents read_checkpoint_file(const std::string &directory, const unsigned int dimension);
+
+/**
+ * Renames DIR/checkpoint, if it is there, to DIR/checkpoint.damaged: it must not take the place of
+ * the older one that a run has gone on from when the next one is written.
+ */
+void set_damaged_aside(const std::string &directory);
 } // namespace scree
