@@ -361,10 +361,10 @@ Mass<dim>::momenta(const Vector &u, const Rates &rates, const Vectors &motion,
 
 template <int dim>
 void
-Mass<dim>::take_off_spins(const std::vector<bool> &turns_freely, const Vector &d, const Vector &w,
+Mass<dim>::take_off_spins(const std::vector<bool> &of_bodies, const Vector &d, const Vector &w,
                           Vector &velocity) const
 {
-  if (std::count(turns_freely.begin(), turns_freely.end(), true) == 0)
+  if (std::count(of_bodies.begin(), of_bodies.end(), true) == 0)
     return;
   std::vector<AddedSpin<dim>> spins(bodies.size());
   const Vectors               motions = at_points(d), impulses = at_points(w);
@@ -380,7 +380,7 @@ Mass<dim>::take_off_spins(const std::vector<bool> &turns_freely, const Vector &d
   Vector       change(space.owned(), space.grid.communicator());
   const Vector moved = with_ghosts(d);
   for (unsigned int a = 0; a < space.cells().size(); ++a)
-    for (unsigned int i = 0; i < space.basis.n_nodes && turns_freely[space.cells()[a].body]; ++i)
+    for (unsigned int i = 0; i < space.basis.n_nodes && of_bodies[space.cells()[a].body]; ++i)
       {
         const DofIndex node = space.nodes(a)[i];
         if (!space.owned().is_element(node))

@@ -123,10 +123,11 @@ OneStepScheme<dim>::rates(const Mass<dim> *mass, const State<dim> &state, const 
                before.forces};
   result.velocity.add(of_step.velocity_by_contact, by_contact);
   result.acceleration.add(of_step.acceleration_by_contact, by_contact);
-  if (of_step.balances_at_end())
-    mass->take_off_spins(turns_freely, d, combined(of_step.start_velocity(), d, before),
-                         result.velocity);
-  set_rates_of_rigid(of_step, *mass, state, u, by_contact, turns_freely, result);
+  const std::vector<bool> loses_spin
+    = of_step.balances_at_end() ? turns_freely : std::vector<bool>(turns_freely.size());
+  mass->take_off_spins(loses_spin, d, combined(of_step.start_velocity(), d, before),
+                       result.velocity);
+  set_rates_of_rigid(of_step, *mass, state, u, by_contact, loses_spin, result);
   return result;
 }
 
@@ -135,7 +136,7 @@ void
 OneStepScheme<dim>::set_rates_of_rigid(const StepFormula &of_step, const Mass<dim> &mass,
                                        const State<dim> &state, const Vector &u,
                                        const Vector            &by_contact,
-                                       const std::vector<bool> &turns_freely, Rates &rates) const
+                                       const std::vector<bool> &loses_spin, Rates &rates) const
 {
   const auto  &before = state.predictor.rates;
   const Vector where = mass.with_ghosts(state.displacement), there = mass.with_ghosts(u),
@@ -163,8 +164,7 @@ OneStepScheme<dim>::set_rates_of_rigid(const StepFormula &of_step, const Mass<di
           spin.add(1., dealii::Point<dim>(x[p]), step, of_step.start_velocity()(step, v_n, a_n));
         }
       spin.finish();
-      const bool has_spin = of_step.balances_at_end() && turns_freely[body.body];
-      for (unsigned int p = 0; p < x.size() && has_spin; ++p)
+      for (unsigned int p = 0; p < x.size() && loses_spin[body.body]; ++p)
         velocities[p] -= spin.velocity(dealii::Point<dim>(x[p]));
       mass.rigid().write(body, body.rates(next, velocities, accelerations), rates.velocity,
                          rates.acceleration);

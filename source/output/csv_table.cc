@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <string_view>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -142,7 +143,7 @@ CsvTable::flush()
       goes_on = n > 0 || (n < 0 && errno == EINTR);
     }
   // Rows are there as a whole or not at all.
-  std::size_t n_whole = pending.substr(0, n_written).rfind('\n') + 1;
+  std::size_t n_whole = std::string_view(pending.data(), n_written).rfind('\n') + 1;
   if (struct stat now; n_whole < n_written && fstat(file, &now) == 0
                        && ftruncate(file, now.st_size - (n_written - n_whole)) != 0)
     n_whole = n_written;

@@ -14,6 +14,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -95,25 +96,45 @@ TEST(CsvTable, APipeInItsPlaceIsNotWaitedFor)
   EXPECT_THROW(Log(MPI_COMM_SELF, name, true), UserError);
 }
 
+namespace
+{
+/** No file of this process may become longer, until it goes away. */
+class FullDisk
+{
+public:
+  explicit FullDisk(const rlim_t n_bytes)
+      : handler(std::signal(SIGXFSZ, SIG_IGN))
+  {
+    getrlimit(RLIMIT_FSIZE, &old);
+    struct rlimit small = old;
+    small.rlim_cur      = n_bytes;
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk()
+  {
+    setrlimit(RLIMIT_FSIZE, &old);
+    std::signal(SIGXFSZ, handler);
+  }
+
+private:
+  struct rlimit old;
+  void (*const handler)(int);
+};
+} // namespace
+
 TEST(CsvTable, RowsThatAFullDiskRefusesComeLater)
 {
-  const Directory   directory;
-  const std::string name = directory.path + "/table.csv";
-  struct rlimit     old;
-  getrlimit(RLIMIT_FSIZE, &old);
-  struct rlimit small = old;
-  small.rlim_cur      = 10;
-  const auto handler  = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
-  CsvTable table(name, {"a", "b"});
+  const Directory         directory;
+  const std::string       name = directory.path + "/table.csv";
+  std::optional<FullDisk> disk(std::in_place, 10);
+  CsvTable                table(name, {"a", "b"});
   table.add_row({1., 2.}); // 8 bytes so far
   EXPECT_TRUE(table.flush());
   table.add_row({3., 4.});
   table.add_row({5., 6.});
   EXPECT_FALSE(table.flush());
   EXPECT_EQ(content(name), "a,b\n1,2\n");
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
+  disk.reset();
   table.add_row({7., 8.});
   EXPECT_TRUE(table.flush());
   EXPECT_EQ(content(name), "a,b\n1,2\n3,4\n5,6\n7,8\n");
@@ -127,15 +148,9 @@ TEST(VtuFiles, AFullDiskLeavesWhatWasWhole)
     return write_file(name, [&](std::ostream &file) { file << text; });
   };
   EXPECT_TRUE(write("old"));
-  struct rlimit old;
-  getrlimit(RLIMIT_FSIZE, &old);
-  struct rlimit small = old;
-  small.rlim_cur      = 10;
-  const auto handler  = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
+  std::optional<FullDisk> disk(std::in_place, 10);
   EXPECT_FALSE(write(std::string(100, 'x')));
-  setrlimit(RLIMIT_FSIZE, &old);
-  std::signal(SIGXFSZ, handler);
+  disk.reset();
   EXPECT_EQ(content(name), "old");
   EXPECT_FALSE(std::filesystem::exists(name + ".part"));
   EXPECT_TRUE(write("new"));

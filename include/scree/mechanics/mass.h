@@ -106,11 +106,9 @@ public:
   std::vector<Momentum<dim>> momenta(const Vector &u, const Rates &rates, const Vectors &motion,
                                      const Vectors &velocities) const;
 
-  /**
-   * Takes off the velocities of deformable bodies the AddedSpin of d and w, of those that turn
-   * freely (collective).
-   */
-  void take_off_spins(const std::vector<bool> &turns_freely, const Vector &d, const Vector &w,
+  /** Takes off the velocities of the deformable ones of some bodies the AddedSpin of d and w
+   * (collective). */
+  void take_off_spins(const std::vector<bool> &of_bodies, const Vector &d, const Vector &w,
                       Vector &velocity) const;
 
   RigidPose<dim> pose(const typename RigidMasses<dim>::OfBody &body, const Vector &ghosted) const;

@@ -86,7 +86,7 @@ private:
   /** What rates() does to rigid bodies. */
   void set_rates_of_rigid(const StepFormula &of_step, const Mass<dim> &mass,
                           const State<dim> &state, const Vector &u, const Vector &by_contact,
-                          const std::vector<bool> &turns_freely, Rates &rates) const;
+                          const std::vector<bool> &loses_spin, Rates &rates) const;
 
   const std::function<StepFormula(double)> formula;
 };
