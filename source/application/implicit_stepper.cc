@@ -17,6 +17,9 @@
 
 namespace scree
 {
+// Of Newton's method while there are other ways to go.
+constexpr unsigned int few_iterations = 60;
+
 template <int dim>
 ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
                                       const StepControl &step_control, Model<dim> &model,
@@ -249,7 +252,7 @@ ImplicitStepper<dim>::move_points(const Vector &u) const
   const DiscreteProblem<dim> &problem = model.problem();
   const MaterialPoints<dim>  &points  = model.state().points;
   auto moved  = problem.kinematics->moved(points, problem.equilibrium().at_points(u));
-  auto reason = why_too_large(problem, points, moved);
+  auto reason = why_too_large(problem, points, moved, negligible_pressure());
   return {std::move(moved), std::move(reason)};
 }
 
@@ -400,12 +403,10 @@ ImplicitStepper<dim>::is_interrupted() const
 
 template <int dim>
 Newton
-ImplicitStepper<dim>::newton(const bool is_patient, const double left)
+ImplicitStepper<dim>::newton(const std::optional<unsigned int> patience, const double left)
 {
-  constexpr unsigned int few        = 60;
-  NewtonParameters       of_attempt = parameters.newton;
-  if (!is_patient)
-    of_attempt.patience = few;
+  NewtonParameters of_attempt = parameters.newton;
+  of_attempt.patience         = patience.value_or(of_attempt.patience);
   of_attempt.absolute_tolerance += left;
   return Newton(of_attempt, hooks());
 }
@@ -418,14 +419,7 @@ ImplicitStepper<dim>::solve(Vector &u, const bool is_patient)
   model.problem().equilibrium().set_inertia({});
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
-  return solve_enforced(newton(is_patient), u);
-}
-
-template <int dim>
-bool
-ImplicitStepper<dim>::has_lost_contact(const NewtonResult &result) const
-{
-  return result.converged() && pressed < 1e-6 * most_pressed;
+  return solve_enforced(newton(is_patient ? std::nullopt : std::optional(few_iterations)), u);
 }
 
 template <int dim>
@@ -433,14 +427,15 @@ NewtonResult
 ImplicitStepper<dim>::solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
                                           const NewtonResult &result)
 {
-  constexpr double      rough   = 1e-5; // of the residual: enough to begin from
-  DiscreteProblem<dim> &problem = model.problem();
-  Vector                v(start);
-  const double          pressed_before = pressed;
+  constexpr double       rough    = 1e-5; // of the residual: enough to begin from
+  constexpr unsigned int patience = 20;   // most that succeed take less than 10, some 15
+  DiscreteProblem<dim>  &problem  = model.problem();
+  Vector                 v(start);
+  const double           pressed_before = pressed;
   problem.contact().laws().set_sticks(true);
   Vector r(v);
   problem.equilibrium().residual(v, model.state().contact, r);
-  const NewtonResult sticking = this->newton(false, rough * r.l2_norm()).solve(v);
+  const NewtonResult sticking = this->newton(patience, rough * r.l2_norm()).solve(v);
   problem.contact().laws().set_sticks(false);
   unsigned int n_iterations = result.iterations + sticking.iterations;
   NewtonResult best         = sticking;
@@ -469,10 +464,11 @@ ImplicitStepper<dim>::solve_step(Vector &u)
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
   const Vector start(u);
-  const Newton newton
-    = this->newton(!relaxation.may_help() || relaxation.is_pending() || has_turned);
-  NewtonResult result = solve_enforced(newton, u);
-  if (has_lost_contact(result)) // Friction may hold what sticks at first.
+  const bool   is_patient = !relaxation.may_help() || relaxation.is_pending() || has_turned;
+  const Newton newton     = this->newton(is_patient ? std::nullopt : std::optional(few_iterations));
+  NewtonResult result     = solve_enforced(newton, u);
+  // Friction may hold what sticks at first.
+  if (has_lost_contact(result) && model.problem().contact().laws().have_friction())
     result = solve_with_sticking(newton, start, u, result);
   if (!has_lost_contact(result))
     return result;

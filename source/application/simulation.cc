@@ -124,13 +124,10 @@ Simulation<dim>::begin_stages()
     return;
   run_log.log.line("Stage " + stages.stage().name);
   const DiscreteProblem<dim> &problem = model.problem();
-  const auto box = box_of_grains(problem.space, problem.level_set_nodes, model.state().bodies,
-                                 problem.quadrature,
-                                 problem.equilibrium().with_ghosts(model.state().displacement));
-  std::vector<double> lengths;
-  for (unsigned int d = 0; d < dim; ++d)
-    lengths.push_back(box.side_length(d));
-  stages.begin_run(lengths);
+  const auto                  region  = assembly_region(
+                      problem.space, problem.level_set_nodes, model.state().bodies, problem.quadrature,
+                      problem.equilibrium().with_ghosts(model.state().displacement));
+  stages.begin_run({region.lengths.begin_raw(), region.lengths.end_raw()});
 }
 
 template <int dim>

@@ -50,6 +50,14 @@ ContactLaws<dim>::acting_law(const unsigned int pair) const
 }
 
 template <int dim>
+bool
+ContactLaws<dim>::have_friction() const
+{
+  return std::any_of(of_pairs.begin(), of_pairs.end(),
+                     [](const ContactPair &pair) { return pair.law.friction() > 0.; });
+}
+
+template <int dim>
 std::vector<ContactMotion<dim>>
 ContactLaws<dim>::motions(const std::vector<ContactPoint<dim>>      &points,
                           const std::vector<unsigned int>           &numbers,

@@ -94,7 +94,7 @@ order_around([[maybe_unused]] const Tensor<1, dim>    &normal,
 
 template <int dim>
 double
-volume(const std::vector<Point<dim>> &simplex)
+volume_of(const std::vector<Point<dim>> &simplex)
 {
   Tensor<2, dim> edges;
   for (unsigned int d = 0; d < dim; ++d)
@@ -248,9 +248,19 @@ Polytope<dim>::simplices() const
       for (auto &simplex : simplices_of(facet))
         {
           simplex.push_back(apex);
-          if (volume(simplex) > negligible)
+          if (volume_of(simplex) > negligible)
             result.push_back(std::move(simplex));
         }
+  return result;
+}
+
+template <int dim>
+double
+Polytope<dim>::volume() const
+{
+  double result = 0.;
+  for (const auto &simplex : simplices())
+    result += volume_of(simplex);
   return result;
 }
 

@@ -53,7 +53,8 @@ MovingGeometryParameters::declare(ParameterSection &section)
                 "A level set becomes a distance again where ||grad phi| - 1| exceeds this [-].");
   section.entry("Largest motion", largest_motion, positive_number(),
                 "A step in which a deformable body moves farther than this many finest cells is "
-                "cut [-].");
+                "cut; without inertia a body that nothing holds or presses in the end may move by "
+                "1.5 Contact/Shift, if that is more [-].");
   section.entry("Largest slip", largest_slip, positive_number(),
                 "A step in which closed contact slides farther than this many finest cells is cut "
                 "[-].");

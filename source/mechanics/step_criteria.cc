@@ -10,10 +10,36 @@
 
 namespace scree
 {
+namespace
+{
+/** By how much each body may move [L], see why_too_large() (collective). */
+template <int dim>
+std::vector<double>
+largest_motions(const DiscreteProblem<dim> &problem, const double negligible_force)
+{
+  constexpr double loose_share = 0.75; // of the reach of contact
+  const double of_pressed = problem.parameters.moving.largest_motion * problem.grid.finest_size();
+  std::vector<double> forces(problem.bodies.size(), 0.), result(problem.bodies.size(), of_pressed);
+  const ContactPoints<dim> &contact = problem.contact();
+  for (unsigned int i = 0; i < contact.points().size(); ++i)
+    {
+      const ContactPair &pair = contact.pairs()[contact.points()[i].pair];
+      const double force = contact.points()[i].weight * std::abs(contact.responses()[i].pressure);
+      forces[pair.a] += force;
+      forces[pair.b] += force;
+    }
+  dealii::Utilities::MPI::sum(forces, problem.communicator(), forces);
+  for (const FreeMotion &free : problem.equilibrium().free_bodies())
+    if (forces[free.body] <= negligible_force)
+      result[free.body] = std::max(of_pressed, loose_share * problem.contact_reach());
+  return result;
+}
+} // namespace
+
 template <int dim>
 std::string
 why_too_large(const DiscreteProblem<dim> &problem, const MaterialPoints<dim> &before,
-              const MaterialPoints<dim> &after)
+              const MaterialPoints<dim> &after, const double negligible_force)
 {
   const double                    h        = problem.grid.finest_size();
   const MovingGeometryParameters &moving   = problem.parameters.moving;
@@ -27,9 +53,10 @@ why_too_large(const DiscreteProblem<dim> &problem, const MaterialPoints<dim> &be
         motions[n_bodies + before.body[p]] = 1.;
     }
   dealii::Utilities::MPI::max(motions, problem.communicator(), motions);
+  const std::vector<double> allowed = largest_motions(problem, negligible_force);
   for (unsigned int b = 0; b < n_bodies; ++b)
     {
-      if (motions[b] > moving.largest_motion * h)
+      if (motions[b] > allowed[b])
         return "the body " + problem.bodies[b].name + " moves by " + short_number(motions[b] / h)
                + " finest cells (Moving geometry/Largest motion)";
       if (motions[n_bodies + b] > 0.)
@@ -118,7 +145,7 @@ slide(const DiscreteProblem<dim> &problem, const ContactHistory<dim> &history, c
 
 #define SCREE_INSTANTIATE(dim)                                                                       \
   template std::string why_too_large(const DiscreteProblem<dim> &, const MaterialPoints<dim> &,      \
-                                     const MaterialPoints<dim> &);                                   \
+                                     const MaterialPoints<dim> &, const double);                     \
   template void        require_inside_box(const DiscreteProblem<dim> &, const MaterialPoints<dim> &, \
                                           const double);                                             \
   template void        require_no_loss(const std::vector<Body<dim>> &,                               \

@@ -1,8 +1,6 @@
 #include <scree/output/assembly.h>
 #include <scree/output/column_names.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,46 +8,6 @@
 
 namespace scree
 {
-template <int dim>
-dealii::BoundingBox<dim>
-box_of_grains(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
-              const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
-              const dealii::TrilinosWrappers::MPI::Vector &u)
-{
-  const PointEvaluator<dim> displacement(space, u);
-  // -x and x, of which the largest values are sought
-  std::vector<double> bounds(2 * dim, std::numeric_limits<double>::lowest());
-  const auto          add = [&](const unsigned int a, const dealii::Point<dim> &unit_point) {
-    const auto x = space.position(a, unit_point) + displacement.value({a, unit_point});
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        bounds[d]       = std::max(bounds[d], -x[d]);
-        bounds[dim + d] = std::max(bounds[dim + d], x[d]);
-      }
-  };
-  const LagrangeBasis<dim>                   &basis = level_set_nodes.basis();
-  std::array<double, max_nodes_per_cell<dim>> phi;
-  for (unsigned int a = 0; a < space.n_owned_cells(); ++a)
-    {
-      const ActiveCell &cell = space.cells()[a];
-      for (unsigned int q = quadrature.surface.begin[a]; q < quadrature.surface.begin[a + 1]; ++q)
-        add(a, quadrature.surface.points[q]);
-      // Bodies that go on beyond the box of the grid end there.
-      level_set_nodes.cell_values(cell.grid_cell, bodies[cell.body].level_set, phi.data());
-      for (unsigned int i = 0; i < basis.n_nodes; ++i)
-        if (phi[i] < 0.)
-          add(a, basis.node(i));
-    }
-  dealii::Utilities::MPI::max(bounds, space.grid.communicator(), bounds);
-  dealii::Point<dim> lower, upper;
-  for (unsigned int d = 0; d < dim && bounds[dim] > std::numeric_limits<double>::lowest(); ++d)
-    {
-      lower[d] = -bounds[d];
-      upper[d] = bounds[dim + d];
-    }
-  return {{lower, upper}};
-}
-
 namespace
 {
 /** The contacts of deformable bodies that carry more than a trifle, by pair. */
@@ -77,8 +35,8 @@ loaded_contacts(const std::vector<Body<dim>> &bodies, const std::vector<ContactP
 } // namespace
 
 template <int dim>
-Assembly<dim>::Assembly(const dealii::BoundingBox<dim> &region,
-                        const std::vector<Body<dim>> &bodies, const std::vector<ContactPair> &pairs,
+Assembly<dim>::Assembly(const AssemblyRegion<dim> &region, const std::vector<Body<dim>> &bodies,
+                        const std::vector<ContactPair>         &pairs,
                         const std::vector<ContactSummary<dim>> &summaries,
                         const std::vector<GrainState<dim>>     &grains)
     : region(region)
@@ -146,9 +104,9 @@ Assembly<dim>::add_grains(const std::vector<Body<dim>>       &bodies,
   coordination = double(n_sides) / n_grains;
   if (n_held > 0)
     mechanical_coordination = double(n_sides_of_held) / n_held;
-  solid_fraction /= region.volume();
-  stress /= region.volume();
-  force_stress /= region.volume();
+  solid_fraction /= region.volume;
+  stress /= region.volume;
+  force_stress /= region.volume;
 }
 
 template <int dim>
@@ -186,7 +144,7 @@ Assembly<dim>::values() const
     = {double(n_grains), double(n_rattlers),      double(n_contacts), double(n_wall_contacts),
        coordination,     mechanical_coordination, solid_fraction,     1. - solid_fraction};
   for (unsigned int d = 0; d < dim; ++d)
-    row.push_back(region.side_length(d));
+    row.push_back(region.lengths[d]);
   add_symmetric(stress, row);
   add_symmetric(force_stress, row);
   row.push_back(p);
@@ -197,12 +155,6 @@ Assembly<dim>::values() const
   return row;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                  \
-  template dealii::BoundingBox<dim> box_of_grains(                                              \
-    const DisplacementSpace<dim> &, const LevelSetNodes<dim> &, const std::vector<Body<dim>> &, \
-    const CutQuadrature<dim> &, const dealii::TrilinosWrappers::MPI::Vector &);                 \
-  template struct Assembly<dim>;
-
-SCREE_INSTANTIATE(2)
-SCREE_INSTANTIATE(3)
+template struct Assembly<2>;
+template struct Assembly<3>;
 } // namespace scree

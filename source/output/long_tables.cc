@@ -163,7 +163,7 @@ void
 LongTables<dim>::gather(const StepRecord &record, const std::vector<ContactPair> &pairs,
                         const std::vector<ContactSummary<dim>> &summaries,
                         const std::vector<GrainState<dim>>     &grains,
-                        const dealii::BoundingBox<dim> &region, const bool geometry_is_moving,
+                        const AssemblyRegion<dim> &region, const bool geometry_is_moving,
                         const bool writes)
 {
   contact_rows.clear();

@@ -139,7 +139,7 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
                                    equilibrium.body_stresses(u), is_moving);
   chains            = ForceChains<dim>(bodies, contact.pairs(), summaries, grains);
   long_tables.gather(record, contact.pairs(), summaries, grains,
-                     box_of_grains(*space, *nodes, bodies, quadrature, ghosted_u), is_moving,
+                     assembly_region(*space, *nodes, bodies, quadrature, ghosted_u), is_moving,
                      is_first);
 }
 

@@ -86,6 +86,56 @@ subsection Moving geometry
          + "end\n";
 }
 
+/** A loose disc that a rigid wall pushes by `cells` finest cells in a step. */
+std::string
+pushed_disc(const double cells)
+{
+  return R"(
+subsection Grid
+  set Lower corner = 0, 0
+  set Upper corner = 4, 2
+  set Cells = 4, 2
+  set Finest level = 3
+end
+subsection Materials
+  set Names = rubber, steel
+  subsection rubber
+    set Young's modulus = 100
+    set Poisson's ratio = 0.3
+  end
+  subsection steel
+    set Law = rigid
+  end
+end
+subsection Bodies
+  set Names = disc, wall
+  subsection disc
+    set Material = rubber
+    subsection Shape
+      set Type = ball
+      set Centre = 1.01, 1
+      set Radius = 0.5
+    end
+  end
+  subsection wall
+    set Material = steel
+    subsection Shape
+      set Type = half space
+      set Point = 0.5, 0
+      set Normal = 1, 0
+    end
+    subsection Motion
+      set Displacement x = )"
+         + std::to_string(cells / 8.) + R"(*t
+    end
+  end
+end
+subsection Moving geometry
+  set Update = every step
+end
+)";
+}
+
 /** Six loose discs between rigid walls that close in. @param more lines of section Moving geometry
  */
 std::string
@@ -328,6 +378,18 @@ TEST(Relaxation, TakesAStepInWhichABodyGoesAsFarAsBefore)
   EXPECT_TRUE(slips.stepper.attempt().is_accepted());
   EXPECT_NEAR(slips.model.state().energies.stored(), direct.model.state().energies.stored(),
               2e-2 * direct.model.state().energies.stored());
+}
+
+TEST(Stepper, WhatNothingPressesInTheEndMayGoAsFarAsContactReaches)
+{
+  // Three quarters of 2 x Shift = 8 cells; what is pressed or held may go 2.
+  const auto outcome = [](const double cells) {
+    ModelRun run(pushed_disc(cells));
+    run.stepper.begin();
+    return run.stepper.attempt().outcome;
+  };
+  EXPECT_EQ(outcome(3.), Attempt<2>::Outcome::accepted);
+  EXPECT_EQ(outcome(7.), Attempt<2>::Outcome::too_large);
 }
 
 TEST(Stepper, AnotherOneTakesTheStepsOfARun)

@@ -77,7 +77,7 @@ struct Square
   Assembly<2> assembly() const
   {
     const auto &bodies = model.cut.bodies;
-    return {BoundingBox<2>({Point<2>(0., 0.), Point<2>(2., 2.)}), bodies, pairs, summaries,
+    return {AssemblyRegion<2>{4., Tensor<1, 2>({2., 2.})}, bodies, pairs, summaries,
             grain_states(bodies, pairs, summaries, motions, stresses, true)};
   }
 };
@@ -118,6 +118,55 @@ TEST(Assembly, OfDiscsApart)
     EXPECT_TRUE(std::isfinite(value));
   EXPECT_EQ(assembly.values().size(), Assembly<2>::columns().size());
   EXPECT_EQ(assembly.p, 0.);
+}
+
+/** The region of the discs of Square without its floor, between `walls`. */
+AssemblyRegion<2>
+region_between(const std::vector<std::pair<std::string, std::string>> &walls)
+{
+  auto bodies = std::vector<std::pair<std::string, std::string>>(
+    {{"g0", ball_text("0.5, 0.5", 0.5)}, {"loose", ball_text("2.5, 1.5", 0.5)}});
+  bodies.insert(bodies.end(), walls.begin(), walls.end());
+  EquilibriumModel<2> model(grid_text("-1, -1", "4, 3", "5, 4", 3) + degree_text(1)
+                            + bodies_text(bodies)
+                            + "subsection Contact\n set Names = none\n subsection none\n"
+                              "  set Law = none\n end\nend\n");
+  auto                u = model.state.displacement;
+  model.equilibrium.set_time(1., u);
+  return assembly_region<2>(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies,
+                            model.quadrature, model.equilibrium.with_ghosts(u));
+}
+
+TEST(AssemblyRegion, EndsAtFlatWallsAndWithTheGrains)
+{
+  const std::string still = motion_text("");
+  const auto        alone = region_between({});
+  // Grains end at the outermost quadrature points of their surface, 0.003 inside.
+  EXPECT_NEAR(alone.volume, 3. * 2., 0.04);
+  EXPECT_NEAR(alone.lengths[0], 3., 0.01);
+  // x > -0.2, y > 0, and x < 3.2 + 0.1 y; above there is no wall.
+  const auto leaning = region_between({{"left", half_space_text("-0.2, 0", "1, 0") + still},
+                                       {"floor", half_space_text("0, 0", "0, 2") + still},
+                                       {"right", half_space_text("3.2, 0", "-1, 0.1") + still}});
+  EXPECT_NEAR(leaning.volume, 3.4 * 2. + 0.1 * 2., 0.02);
+  EXPECT_NEAR(leaning.lengths[0], 3.5, 0.001);
+  EXPECT_NEAR(leaning.lengths[1], 2., 0.005);
+  // Simple shear by sides that turn: the area stays.
+  const std::string turn    = "set Rotation = -0.1*t\nset Reference point = ";
+  const auto        sheared = region_between(
+           {{"left", half_space_text("-0.2, -0.1", "1, 0") + motion_text(turn + "-0.2, -0.1")},
+            {"right", half_space_text("3.2, -0.1", "-1, 0") + motion_text(turn + "3.2, -0.1")},
+            {"floor", half_space_text("0, -0.1", "0, 1") + still},
+            {"roof", half_space_text("0, 2.1", "0, -1") + still}});
+  EXPECT_NEAR(sheared.volume, 3.4 * 2.2, 1e-10);
+  EXPECT_NEAR(sheared.lengths[0], 3.4, 1e-10);
+  EXPECT_NEAR(sheared.lengths[1], 2.2, 1e-10);
+}
+
+TEST(AssemblyRegion, ABodyAmongGrainsIsNoWall)
+{
+  const std::string box = box_text("1.2, -0.5", "1.6, 2.5") + motion_text("");
+  EXPECT_NEAR(region_between({{"tool", box}}).volume, 3. * 2., 0.04);
 }
 
 TEST(GrainStates, StressByForces)

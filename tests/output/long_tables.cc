@@ -74,9 +74,9 @@ collectives_of_tables(const unsigned int n)
       .size(),
     n * n);
   EXPECT_EQ(model.equilibrium.body_stresses(model.state.displacement).size(), n * n);
-  EXPECT_GT(box_of_grains<2>(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies,
-                             model.quadrature, u)
-              .volume(),
+  EXPECT_GT(assembly_region<2>(*model.cut.space, *model.cut.level_set_nodes, model.cut.bodies,
+                               model.quadrature, u)
+              .volume,
             0.9 * n * n);
   return n_collectives;
 }
@@ -205,7 +205,7 @@ write_step(LongTables<2> &tables, const std::vector<Body<2>> &bodies, const unsi
   record.stage = 3;
   tables.gather(record, pairs, {summary},
                 grain_states(bodies, pairs, {summary}, motions, stresses, true),
-                BoundingBox<2>({Point<2>(-1., -1.), Point<2>(3., 1.)}), true, true);
+                AssemblyRegion<2>{8., Tensor<1, 2>({4., 2.})}, true, true);
   tables.add_transfers({{{0u, 1u}, Tensor<1, 2>({0.25, 0.})}});
   tables.write();
 }

@@ -7,6 +7,7 @@
 #include <scree/mechanics/time_scheme.h>
 #include <scree/solver/newton.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -58,13 +59,24 @@ private:
   void take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
   /** The material points after the step; false, with the outcome, if they moved too far. */
   bool take_points(const Vector &u, Attempt<dim> &attempt);
-  /** @param left what of the residual may be left, beyond the tolerances [force] */
-  Newton       newton(const bool is_patient, const double left = 0.);
+  /**
+   * @param patience as of NewtonParameters; none: as there
+   * @param left what of the residual may be left, beyond the tolerances [force]
+   */
+  Newton       newton(const std::optional<unsigned int> patience, const double left = 0.);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
+  /** Sum of contact pressures that is none beside those of this step [force]. */
+  double negligible_pressure() const
+  {
+    return 1e-6 * most_pressed;
+  }
   /** Whether all contact pressure went in the last solution, though there was some. */
-  bool              has_lost_contact(const NewtonResult &result) const;
+  bool has_lost_contact(const NewtonResult &result) const
+  {
+    return result.converged() && pressed < negligible_pressure();
+  }
   NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
                                         const NewtonResult &result);
   Newton::Hooks     hooks();

@@ -50,6 +50,9 @@ public:
     all_stick = sticks;
   }
 
+  /** Whether there is something that set_sticks() changes. */
+  bool have_friction() const;
+
   /** Keeps the bounds b(p) and the f of these responses of all points until unfreeze(). */
   void freeze(const std::vector<ContactPoint<dim>>    &points,
               const std::vector<ContactResponse<dim>> &responses);

@@ -69,6 +69,9 @@ public:
   /** Simplices of positive volume that fill it: dim + 1 vertices each. */
   std::vector<std::vector<dealii::Point<dim>>> simplices() const;
 
+  /** Of the unit cell's. */
+  double volume() const;
+
   std::vector<Facet<dim>> facets;
 };
 

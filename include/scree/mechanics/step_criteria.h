@@ -12,12 +12,16 @@ namespace scree
 /**
  * Why a converged increment on a moving geometry is too large: material points move by more than
  * `largest_motion`, or closed contact slides by more than `largest_slip`, both in finest cells;
- * empty: it is not (collective). Not of the unknowns: nodes of cut cells off the body may run ahead
- * where it is strained much.
+ * empty: it is not (collective). Points of free bodies that nothing presses in the end, as of
+ * grains that were pushed out of the way, may move by three quarters of the reach of contact:
+ * whatever they could meet there has contact points. Not of the unknowns: nodes of cut cells off
+ * the body may run ahead where it is strained much.
+ *
+ * @param negligible_force sum of the contact pressures on a body that is none [force]
  */
 template <int dim>
 std::string why_too_large(const DiscreteProblem<dim> &problem, const MaterialPoints<dim> &before,
-                          const MaterialPoints<dim> &after);
+                          const MaterialPoints<dim> &after, const double negligible_force);
 
 /**
  * That the points are inside the background box, unless they may leave it (collective).

@@ -1,24 +1,13 @@
 #pragma once
 
+#include <scree/output/assembly_region.h>
 #include <scree/output/grain_states.h>
-
-#include <deal.II/base/bounding_box.h>
 
 #include <string>
 #include <vector>
 
 namespace scree
 {
-/**
- * The smallest box, with edges along the axes, around all deformable bodies, where `u` of the step
- * brings them (collective). With none, an empty one at the origin.
- */
-template <int dim>
-dealii::BoundingBox<dim>
-box_of_grains(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &level_set_nodes,
-              const std::vector<Body<dim>> &bodies, const CutQuadrature<dim> &quadrature,
-              const dealii::TrilinosWrappers::MPI::Vector &u);
-
 /**
  * The deformable bodies of a step as an assembly of grains between the rigid ones, its walls. Of
  * the closed contacts those count that carry more than 1e-6 of their mean force. With contacts c of
@@ -33,7 +22,7 @@ box_of_grains(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
 template <int dim>
 struct Assembly
 {
-  dealii::BoundingBox<dim>        region;
+  AssemblyRegion<dim>             region;
   unsigned int                    n_grains = 0, n_rattlers = 0; //!< without or with one contact
   unsigned int                    n_contacts = 0, n_wall_contacts = 0;
   double                          coordination = 0., mechanical_coordination = 0.;
@@ -44,7 +33,7 @@ struct Assembly
   dealii::SymmetricTensor<2, dim> fabric, force_fabric; //!< of trace 1; zero without contacts
   double mobilised_friction = 0.; //!< sum |f_t| / sum mu f_n where mu > 0 is finite, else 0
 
-  Assembly(const dealii::BoundingBox<dim> &region, const std::vector<Body<dim>> &bodies,
+  Assembly(const AssemblyRegion<dim> &region, const std::vector<Body<dim>> &bodies,
            const std::vector<ContactPair> &pairs, const std::vector<ContactSummary<dim>> &summaries,
            const std::vector<GrainState<dim>> &grains);
 

@@ -53,7 +53,7 @@ public:
    */
   void gather(const StepRecord &record, const std::vector<ContactPair> &pairs,
               const std::vector<ContactSummary<dim>> &summaries,
-              const std::vector<GrainState<dim>> &grains, const dealii::BoundingBox<dim> &region,
+              const std::vector<GrainState<dim>> &grains, const AssemblyRegion<dim> &region,
               const bool geometry_is_moving, const bool writes);
 
   /** Adds the changes of the tangential forces of pairs: see MotionRecord. */
