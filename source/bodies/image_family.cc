@@ -107,9 +107,11 @@ ImageParameters<dim>::declare(const ParameterSection &section)
                 "they share most sides of pixels with, or are refused.");
   section.entry("Cut labels", cut_labels, cut_label_names,
                 "Whether labels at the edge of the image, or of the part of it, become bodies.");
-  section.entry("Smoothing", placement.smoothing, dealii::Patterns::Integer(0, 100),
+  section.entry("Smoothing", placement.smoothing, dealii::Patterns::Integer(-1, 100),
                 "Passes n of smoothing, which rounds what is smaller than sqrt(n/2) pixels; the "
-                  + volume_name<dim>() + " of each label stays.");
+                  + volume_name<dim>()
+                  + " of each label stays. -1: 4, but more of labels without corners, whose steps "
+                    "of pixels are wide.");
   section.entry("Gap", placement.gap, dealii::Patterns::Double(0.),
                 "Every outline moves inwards by half of it, so that labels that touch are so far "
                 "apart [L].");

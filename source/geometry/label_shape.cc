@@ -119,6 +119,52 @@ keep_volume(Lattice<dim> &lattice, const double volume)
     }
 }
 
+/** A distance from labels by so many passes, or fewer where they would cut a neck. */
+template <int dim>
+Lattice<dim>
+smoothed(const Lattice<dim> &signs, const unsigned int most_passes)
+{
+  Lattice<dim> result = signs;
+  for (unsigned int n_passes = most_passes + 1; n_passes-- > 0;)
+    {
+      result = signs;
+      distance_from_labels(result, n_passes);
+      if (negative_pieces(result).n == 1)
+        break;
+    }
+  return result;
+}
+
+/** Whether two distances differ by at most `tolerance` next to their contours. */
+template <int dim>
+bool
+is_near(const Lattice<dim> &a, const Lattice<dim> &b, const double tolerance)
+{
+  const double beside = a.spacing() + tolerance;
+  for (std::size_t i = 0; i < a.values().size(); ++i)
+    if (std::abs(a.values()[i]) < beside && std::abs(a.values()[i] - b.values()[i]) > tolerance)
+      return false;
+  return true;
+}
+
+/** A distance from the labels of `n_pixels`, see shape_of_label(). */
+template <int dim>
+Lattice<dim>
+smoothed_by_default(const Lattice<dim> &signs, const std::size_t n_pixels)
+{
+  constexpr unsigned int few_passes = 4;
+  constexpr double       tolerance  = 0.25; // pixels
+  Lattice<dim>           result     = smoothed(signs, few_passes);
+  const double           unit_ball  = dim == 2 ? numbers::PI : 4. / 3. * numbers::PI,
+               radius               = std::pow(n_pixels / unit_ball, 1. / dim);
+  const auto n_passes               = std::lround(2.5 * std::max(0., radius - 3.));
+  if (n_passes <= few_passes)
+    return result;
+  Lattice<dim> smooth = signs;
+  distance_from_labels(smooth, n_passes, true);
+  return is_near(result, smooth, tolerance * signs.spacing()) ? smooth : result;
+}
+
 /** Throws UserError unless the label is still there, in one piece. */
 template <int dim>
 void
@@ -141,14 +187,8 @@ shape_of_label(const LabelImage<dim> &image, const LabelPiece<dim> &piece,
                const LabelPlacement<dim> &placement, const std::string &where)
 {
   const Lattice<dim> signs   = signs_of(image, piece, placement);
-  Lattice<dim>       lattice = signs;
-  for (unsigned int n_passes = placement.smoothing + 1; n_passes-- > 0;)
-    {
-      lattice = signs;
-      distance_from_labels(lattice, n_passes);
-      if (negative_pieces(lattice).n == 1)
-        break;
-    }
+  Lattice<dim>       lattice = placement.smoothing < 0 ? smoothed_by_default(signs, piece.n_pixels)
+                                                       : smoothed(signs, placement.smoothing);
   keep_volume(lattice, placement.volume(piece));
   if (placement.gap > 0.)
     {

@@ -83,17 +83,29 @@ voxel_volume(const Lattice<dim> &lattice)
   return sum * std::pow(lattice.spacing(), dim);
 }
 
-// Applies (1/4, 1/2, 1/4) along the axis with this stride; ends count twice.
+// Applies (1/4, 1/2, 1/4) n_passes times along the axis with this stride, line by line; ends count
+// twice.
 void
-smooth(std::vector<double> &values, const std::size_t stride, const std::size_t n_nodes)
+smooth(std::vector<double> &values, const std::size_t stride, const std::size_t n_nodes,
+       const unsigned int n_passes)
 {
-  const std::vector<double> before = values;
-  for (std::size_t i = 0; i < values.size(); ++i)
+  std::vector<double> line(n_nodes + 2), before(n_nodes + 2); // from 1, with the ends again
+  for (std::size_t first = 0; first < values.size(); ++first)
     {
-      const std::size_t position = i / stride % n_nodes;
-      const double      below    = position > 0 ? before[i - stride] : before[i],
-                   above         = position + 1 < n_nodes ? before[i + stride] : before[i];
-      values[i]                  = 0.25 * below + 0.5 * before[i] + 0.25 * above;
+      if (first / stride % n_nodes != 0)
+        continue;
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        line[i + 1] = values[first + i * stride];
+      for (unsigned int pass = 0; pass < n_passes; ++pass)
+        {
+          line.swap(before);
+          before.front() = before[1];
+          before.back()  = before[n_nodes];
+          for (std::size_t i = 1; i <= n_nodes; ++i)
+            line[i] = 0.25 * before[i - 1] + 0.5 * before[i] + 0.25 * before[i + 1];
+        }
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        values[first + i * stride] = line[i + 1];
     }
 }
 } // namespace
@@ -134,18 +146,27 @@ volume_below(const Lattice<dim> &lattice, const double level)
 
 template <int dim>
 void
-distance_from_labels(Lattice<dim> &lattice, const unsigned int n_passes)
+distance_from_labels(Lattice<dim> &lattice, const unsigned int n_passes, const bool is_unbiased)
 {
   AssertThrow(has_contour(lattice), ExcMessage("The labels are all of one sign."));
   const double volume = voxel_volume(lattice);
   for (double &value : lattice.values())
     value = value < 0 ? -1 : 0;
-  std::size_t stride = 1;
-  for (unsigned int d = 0; d < dim; ++d)
+  const auto smooth_all = [&]() {
+    std::size_t stride = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        smooth(lattice.values(), stride, lattice.n_nodes()[d], n_passes);
+        stride *= lattice.n_nodes()[d];
+      }
+  };
+  smooth_all();
+  if (is_unbiased)
     {
-      for (unsigned int pass = 0; pass < n_passes; ++pass)
-        smooth(lattice.values(), stride, lattice.n_nodes()[d]);
-      stride *= lattice.n_nodes()[d];
+      const std::vector<double> once = lattice.values();
+      smooth_all();
+      for (std::size_t i = 0; i < once.size(); ++i)
+        lattice.values()[i] = 2. * once[i] - lattice.values()[i];
     }
   const auto shift = [&]() {
     const double level = level_of_volume(lattice, volume);
@@ -159,7 +180,7 @@ distance_from_labels(Lattice<dim> &lattice, const unsigned int n_passes)
 
 #define INSTANTIATE(dim)                                      \
   template double volume_below(const Lattice<dim> &, double); \
-  template void   distance_from_labels(Lattice<dim> &, unsigned int);
+  template void   distance_from_labels(Lattice<dim> &, unsigned int, bool);
 
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -139,6 +139,37 @@ TEST(LabelShape, KeepsAreaAndOutlineOnAnyGrid)
   EXPECT_LT(shape->signed_distance(far), far.distance(box.center()));
 }
 
+TEST(LabelShape, RoundLabelsLoseTheirWideStepsAndSquaresKeepTheirCorners)
+{
+  const Point<2> centre(30., 30.);
+  const auto disc   = image_of(60, 60, [&](const Point<2> &x) { return x.distance(centre) < 25; }),
+             square = image_of(60, 60, [&](const Point<2> &x) {
+               return std::max(std::abs(x[0] - 30), std::abs(x[1] - 30)) < 20;
+             });
+  LabelPlacement<2> placement;
+  placement.pixel_size = 1.;
+  const auto shape     = [&](const LabelImage<2> &image, const int smoothing) {
+    placement.smoothing = smoothing;
+    return shape_of_label(image, pieces_of(image).at(0), placement, "Image");
+  };
+  // The outline of the disc, off its circle by this many pixels.
+  const auto off = [&](const int smoothing) {
+    const auto of_disc = shape(disc, smoothing);
+    double     largest = 0.;
+    for (double angle = 0.; angle < 6.28; angle += 0.01)
+      largest = std::max(largest, std::abs(of_disc->signed_distance(
+                                    centre + 25. * Point<2>(std::cos(angle), std::sin(angle)))));
+    return largest;
+  };
+  const double by_default = off(-1), by_four = off(4);
+  std::cout << "off the circle by " << by_default << " pixels, " << by_four << " with 4 passes\n";
+  EXPECT_LT(by_default, 0.1);
+  EXPECT_GT(by_four, 1.5 * by_default);
+  const auto a = shape(square, -1), b = shape(square, 4);
+  for (double x = 30.; x < 55.; x += 0.5)
+    EXPECT_EQ(a->signed_distance({x, x}), b->signed_distance({x, x}));
+}
+
 // An ellipsoid of 24 x 20 x 16 voxels.
 TEST(LabelShape, KeepsVolumeAndSurfaceOfAVolume)
 {

@@ -18,8 +18,11 @@ double volume_below(const Lattice<dim> &lattice, double level);
  * `sqrt(n_passes / 2)` spacings), cut at the level that keeps the volume of the voxels, and
  * replaced by its distance (compute_distances()), shifted so that volume_below() zero is kept. The
  * contour ends up about half a spacing from the steps at most, where features are wider than the
- * kernel. Throws ExcMessage without labels of both signs.
+ * kernel. A kernel G of deviation s moves contours of curvature k by s^2 k/2; if `is_unbiased` it
+ * is 2 G - G G, which does not in this order ("twicing", Tukey 1977). Throws ExcMessage without
+ * labels of both signs.
  */
 template <int dim>
-void distance_from_labels(Lattice<dim> &lattice, unsigned int n_passes = 4);
+void distance_from_labels(Lattice<dim> &lattice, unsigned int n_passes = 4,
+                          bool is_unbiased = false);
 } // namespace scree
