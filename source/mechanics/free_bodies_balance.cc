@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 // How free bodies move as rigid ones until contact balances their loads.
@@ -25,16 +26,34 @@ constexpr double       overshoot        = 0.5;
 constexpr double       lost             = 0.5;
 constexpr double       search_reduction = 0.1;
 constexpr unsigned int max_trials       = 30;
+constexpr double       surely_open      = 1e-6; // gap, in cells
 } // namespace
 
 /** Forces on the coordinates, and what resists them, after a motion q. */
 template <int dim>
 struct FreeBodies<dim>::Balance
 {
+  /** Points of a pair, by their gaps. */
+  struct Range
+  {
+    unsigned int pair, begin, end;
+    std::size_t  first_column;
+    Coordinates  fastest; //!< motion of any point along its normal, by coordinates
+  };
+
   Balance(const FreeBodies &free, const Coordinates &loads, const ContactHistory<dim> &history,
           const bool is_falling);
 
   void evaluate(const Coordinates &q);
+
+  /** Sorts the points of each pair by their gaps, closed ones first. */
+  void find_points();
+
+  /** Adds the columns of a point, unless it stays open; and the largest ones along normals. */
+  bool add_columns(const unsigned int i, const double gap, Coordinates &fastest);
+
+  /** The points that may be closed after a motion q, in 3D one of a hundred, and their jumps. */
+  void find_near(const Coordinates &q);
 
   /** Whether no body misses its balance by more than a part of what acts on it. */
   bool is_balanced() const;
@@ -60,12 +79,16 @@ struct FreeBodies<dim>::Balance
   const ContactHistory<dim> &history;
   const bool                 is_falling; // till forces balance; else a step goes on from there
 
-  std::vector<std::size_t>            first_of_pair; // entry of the pair's block
-  std::vector<unsigned int>           points;        // of contact, with a free body
-  std::vector<dealii::Tensor<1, dim>> columns;       // of these points, by coordinates
-  std::vector<dealii::Tensor<1, dim>> jumps;         // of these points
-  Coordinates                         mass;          // M
-  std::size_t                         n_entries = 0; // of all blocks
+  std::vector<std::size_t>                    first_of_pair; // entry of the pair's block
+  std::vector<Range>                          ranges;
+  std::vector<unsigned int>                   points;       // of contact, with a free body
+  std::vector<double>                         gaps;         // of these points at the start, if open
+  std::vector<dealii::Tensor<1, dim>>         columns;      // of these points, by coordinates
+  std::vector<unsigned int>                   near;         // what may be closed now
+  std::vector<const dealii::Tensor<1, dim> *> near_columns; // of what is near
+  std::vector<dealii::Tensor<1, dim>>         jumps;        // of what is near
+  Coordinates                                 mass;         // M
+  std::size_t                                 n_entries = 0; // of all blocks
 
   Coordinates         forces;      // F
   std::vector<double> acting;      // on each free body
@@ -81,39 +104,12 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
     , history(history)
     , is_falling(is_falling)
 {
-  const auto &contact = free.contact;
   for (const auto &coordinates : free.coordinates_of_pair)
     {
       first_of_pair.push_back(n_entries);
       n_entries += coordinates.size() * coordinates.size();
     }
-  for (unsigned int i = 0; i < contact.points().size(); ++i)
-    {
-      const ContactPoint<dim> &point = contact.points()[i];
-      const ContactPair       &pair  = contact.pairs()[point.pair];
-      if (free.coordinates_of_pair[point.pair].empty())
-        continue;
-      const std::size_t n_before = columns.size();
-      for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
-        if (const unsigned int number = free.number_of[body]; number != none)
-          {
-            dealii::Point<dim> x = point.feet[sign < 0. ? 0 : 1];
-            if (free.turns_finitely)
-              x += contact.mean_displacements()[i] + 0.5 * sign * contact.jumps()[i];
-            for (unsigned int k = 0; k < free.bases[number].n(); ++k)
-              columns.push_back(sign * free.motion(number, k, x));
-          }
-      // What stays open in all motions that balancing() allows is left out.
-      double approach = 0.;
-      for (std::size_t k = n_before; k < columns.size(); ++k)
-        approach += free.longest_motion() * std::abs(columns[k] * point.normal);
-      if (free.turns_finitely && contact.responses()[i].status == ContactStatus::open
-          && contact.gap(i) > 1.01 * approach)
-        columns.resize(n_before);
-      else
-        points.push_back(i);
-    }
-  jumps.resize(points.size());
+  find_points();
   std::vector<double> load;
   for (unsigned int i = 0; i < free.free_motions.size(); ++i)
     load.push_back(free.magnitude(loads, i));
@@ -125,26 +121,108 @@ FreeBodies<dim>::Balance::Balance(const FreeBodies &free, const Coordinates &loa
 
 template <int dim>
 void
+FreeBodies<dim>::Balance::find_points()
+{
+  const auto &contact = free.contact;
+  const auto  gap_of  = [&](const unsigned int i) {
+    return contact.responses()[i].status == ContactStatus::open
+               ? contact.gap(i)
+               : std::numeric_limits<double>::lowest();
+  };
+  std::vector<std::pair<double, unsigned int>> of_pair;
+  for (unsigned int i = 0, end = 0; i < contact.points().size(); i = end)
+    {
+      const unsigned int pair = contact.points()[i].pair;
+      of_pair.clear();
+      for (; end < contact.points().size() && contact.points()[end].pair == pair; ++end)
+        of_pair.emplace_back(gap_of(end), end);
+      if (free.coordinates_of_pair[pair].empty())
+        continue;
+      std::sort(of_pair.begin(), of_pair.end());
+      Range range{pair, static_cast<unsigned int>(points.size()), 0, columns.size(),
+                  Coordinates(free.coordinates_of_pair[pair].size(), 0.)};
+      for (const auto &[gap, number] : of_pair)
+        if (add_columns(number, gap, range.fastest))
+          {
+            points.push_back(number);
+            gaps.push_back(gap);
+          }
+      range.end = points.size();
+      ranges.push_back(range);
+    }
+}
+
+template <int dim>
+bool
+FreeBodies<dim>::Balance::add_columns(const unsigned int i, const double gap, Coordinates &fastest)
+{
+  const ContactPoint<dim> &point    = free.contact.points()[i];
+  const ContactPair       &pair     = free.contact.pairs()[point.pair];
+  const std::size_t        n_before = columns.size();
+  for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
+    if (const unsigned int number = free.number_of[body]; number != none)
+      {
+        dealii::Point<dim> x = point.feet[sign < 0. ? 0 : 1];
+        if (free.turns_finitely)
+          x += free.contact.mean_displacements()[i] + 0.5 * sign * free.contact.jumps()[i];
+        for (unsigned int k = 0; k < free.bases[number].n(); ++k)
+          columns.push_back(sign * free.motion(number, k, x));
+      }
+  // What stays open in all motions that balancing() allows is left out.
+  double approach = 0.;
+  for (std::size_t k = n_before; k < columns.size(); ++k)
+    approach += free.longest_motion() * std::abs(columns[k] * point.normal);
+  if (free.turns_finitely && gap > 1.01 * approach)
+    {
+      columns.resize(n_before);
+      return false;
+    }
+  for (std::size_t k = n_before; k < columns.size(); ++k)
+    fastest[k - n_before] = std::max(fastest[k - n_before], std::abs(columns[k] * point.normal));
+  return true;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::Balance::find_near(const Coordinates &q)
+{
+  near.clear();
+  near_columns.clear();
+  jumps.clear();
+  for (const Range &range : ranges)
+    {
+      const auto &coordinates = free.coordinates_of_pair[range.pair];
+      double      approach    = surely_open * free.cell_size;
+      for (unsigned int k = 0; k < coordinates.size(); ++k)
+        approach += std::abs(q[coordinates[k]]) * range.fastest[k];
+      const auto *column = columns.data() + range.first_column;
+      for (unsigned int j = range.begin; j < range.end && gaps[j] <= approach; ++j)
+        {
+          near.push_back(points[j]);
+          near_columns.push_back(column);
+          jumps.push_back(free.contact.jumps()[points[j]]);
+          for (const unsigned int k : coordinates)
+            jumps.back() += q[k] * *column++;
+        }
+    }
+}
+
+template <int dim>
+void
 FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
 {
   const auto         &contact  = free.contact;
   const unsigned int  n        = free.n_coordinates;
   const unsigned int  n_bodies = free.free_motions.size();
   std::vector<double> all(n + n_bodies + n_entries, 0.);
-  const auto         *column = columns.data();
-  for (unsigned int j = 0; j < points.size(); ++j)
+  find_near(q);
+  const auto responses = contact.responses_to(near, jumps, history);
+  for (unsigned int j = 0; j < near.size(); ++j)
     {
-      jumps[j] = contact.jumps()[points[j]];
-      for (const unsigned int k : free.coordinates_of_pair[contact.points()[points[j]].pair])
-        jumps[j] += q[k] * *column++;
-    }
-  const auto responses = contact.responses_to(points, jumps, history);
-  column               = columns.data();
-  for (unsigned int j = 0; j < points.size(); ++j)
-    {
-      const ContactPoint<dim> &point       = contact.points()[points[j]];
+      const ContactPoint<dim> &point       = contact.points()[near[j]];
       const ContactPair       &pair        = contact.pairs()[point.pair];
       const auto              &coordinates = free.coordinates_of_pair[point.pair];
+      const auto              *column      = near_columns[j];
       const auto              &response    = responses[j];
       const auto               traction    = point.weight * response.traction(point.normal);
       if (response.status != ContactStatus::open)
@@ -161,7 +239,6 @@ FreeBodies<dim>::Balance::evaluate(const Coordinates &q)
             if (free.number_of[body] != none)
               all[n + free.number_of[body]] += traction.norm();
         }
-      column += coordinates.size();
     }
   dealii::Utilities::MPI::sum(all, free.communicator, all);
   forces.assign(all.begin(), all.begin() + n);
