@@ -30,6 +30,7 @@ ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
     , run_log(run_log)
     , closing(step_control, model, *this, run_log)
     , relaxation(step_control, model, *this, run_log)
+    , accuracy(parameters.time, step_control, model, run_log)
 {
 }
 
@@ -70,6 +71,13 @@ ImplicitStepper<dim>::largest_step() const
 }
 
 template <int dim>
+StepEvent
+ImplicitStepper<dim>::next_event() const
+{
+  return accuracy.next_event();
+}
+
+template <int dim>
 bool
 ImplicitStepper<dim>::finds_another_way(const typename Attempt<dim>::Outcome outcome)
 {
@@ -101,7 +109,7 @@ template <int dim>
 StepperRecord
 ImplicitStepper<dim>::recorded() const
 {
-  return {is_second_attempt};
+  return {is_second_attempt, accuracy.recorded()};
 }
 
 template <int dim>
@@ -109,6 +117,7 @@ void
 ImplicitStepper<dim>::resume(const StepperRecord &record)
 {
   is_second_attempt = record.is_second_attempt;
+  accuracy.resume(record.largest_speed);
 }
 
 template <int dim>
@@ -124,14 +133,14 @@ ImplicitStepper<dim>::attempt()
   problem.equilibrium().set_second_attempt(is_second_attempt);
   const TimeScheme<dim> &scheme = model.time_scheme();
   problem.equilibrium().set_inertia(scheme.inertia(problem.mass, model.state(), time));
+  accuracy.begin_attempt();
   auto u = first_guess<dim>(problem, scheme, model.state(), time, [&](const Vector &b, Vector &x) {
     solve_linear_system(b, parameters.linear_solver.tolerance, x);
   });
   const NewtonResult result = solve_step(u);
   record.newton_iterations  = result.iterations;
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
-  Attempt<dim> attempt;
-  attempt.record = record;
+  Attempt<dim> attempt{Attempt<dim>::Outcome::unsolved, record, {}, {}};
   if (result.status == NewtonStatus::interrupted)
     {
       if (relaxation.is_pending())
@@ -157,8 +166,8 @@ ImplicitStepper<dim>::attempt()
   else
     require_small_rotations(problem, balances, model.state(), time);
   const Rates rates = rates_at_end(problem, scheme, model.state(), u, time);
-  if (problem.mass)
-    take_motion(u, rates, attempt);
+  if (!takes_motion(u, rates, attempt))
+    return attempt;
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.contact_reach(), problem.communicator());
   if (!model.is_moving())
@@ -173,87 +182,8 @@ ImplicitStepper<dim>::attempt()
   has_slid        = true;
   free_motion     = std::numeric_limits<double>::infinity();
   relaxation.finish();
+  accuracy.accept();
   return attempt;
-}
-
-template <int dim>
-bool
-ImplicitStepper<dim>::take_points(const Vector &u, Attempt<dim> &attempt)
-{
-  const Timings::Scope scope(run_log.timings, "material points");
-  std::string          reason;
-  std::tie(attempt.points, reason) = move_points(u);
-  if (reason.empty())
-    return true;
-  run_log.log.line("Step " + std::to_string(record.step) + " to time " + short_number(record.time)
-                   + " is too large: " + reason);
-  // A body that slips out of contact goes as far in half a step.
-  constexpr double as_far = 0.75;
-  const double     motion = largest_free_motion(u);
-  has_slipped             = motion > as_far * free_motion
-                && motion > parameters.moving.largest_motion * model.problem().grid.finest_size();
-  free_motion     = motion;
-  attempt.outcome = Attempt<dim>::Outcome::too_large;
-  return false;
-}
-
-template <int dim>
-double
-ImplicitStepper<dim>::largest_free_motion(const Vector &u) const
-{
-  const Equilibrium<dim>   &equilibrium = model.problem().equilibrium();
-  const std::vector<double> motions     = equilibrium.largest_displacements(u);
-  double                    result      = 0.;
-  for (const FreeMotion &free : equilibrium.free_bodies())
-    result = std::max(result, motions[free.body]);
-  return result;
-}
-
-template <int dim>
-void
-ImplicitStepper<dim>::take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const
-{
-  if (!model.has_inertia())
-    {
-      attempt.record.momenta.assign(model.problem().bodies.size() * n_rigid_components<dim>, 0.);
-      return;
-    }
-  const Mass<dim> &mass = *model.problem().mass;
-  model.problem().equilibrium().set_kinetic_energy(mass.kinetic_energy(u, rates));
-  auto                                velocities = mass.at_points(rates.velocity);
-  std::vector<dealii::Tensor<1, dim>> motion(velocities.size());
-  if (model.is_moving())
-    {
-      const State<dim> &state  = model.state();
-      const auto        before = mass.at_points(state.predictor.rates.velocity);
-      const double      share  = parameters.time_scheme.flip_share;
-      for (std::size_t p = 0; p < velocities.size(); ++p)
-        {
-          velocities[p] += share * (state.points.velocity[p] - before[p]);
-          motion[p] = attempt.points.position[p] - state.points.position[p];
-        }
-      attempt.points.velocity     = velocities;
-      attempt.points.acceleration = mass.at_points(rates.acceleration);
-      attempt.points.forcing      = mass.at_points(mass.solve(rates.forces));
-    }
-  for (const auto &momentum : mass.momenta(u, rates, motion, velocities))
-    {
-      auto &columns = attempt.record.momenta;
-      columns.insert(columns.end(), momentum.linear.begin_raw(), momentum.linear.end_raw());
-      for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
-        columns.push_back(momentum.angular[d]);
-    }
-}
-
-template <int dim>
-std::pair<MaterialPoints<dim>, std::string>
-ImplicitStepper<dim>::move_points(const Vector &u) const
-{
-  const DiscreteProblem<dim> &problem = model.problem();
-  const MaterialPoints<dim>  &points  = model.state().points;
-  auto moved  = problem.kinematics->moved(points, problem.equilibrium().at_points(u));
-  auto reason = why_too_large(problem, points, moved, negligible_pressure());
-  return {std::move(moved), std::move(reason)};
 }
 
 template <int dim>

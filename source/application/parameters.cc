@@ -153,15 +153,18 @@ rigid_bodies(const Parameters<dim> &p)
   return result;
 }
 
-/** That the stages alone say how long the run is. */
+/** That the stages alone say how long the run is, and that steps by error have an error. */
 template <int dim>
 void
-check_times_of_stages(const Parameters<dim> &p, const ParameterSection &section)
+check_times(const Parameters<dim> &p, const ParameterSection &section)
 {
   for (const std::string key : {"End time", "Steps"})
     if (!p.stages.empty() && section.is_set(key))
       section.error(key, "the stages have times and steps of their own",
                     "leave it out, or write it as Duration and Steps of a stage");
+  if (p.time.is_by_error() && !p.time_scheme.has_inertia())
+    section.error("Local error", "steps without inertia have no error of a time scheme",
+                  "set Scheme = Newmark, generalized alpha or backward Euler, or leave it out");
 }
 
 /** Why the bodies of a run cannot be reset, and the remedy; empty: they can. */
@@ -262,7 +265,7 @@ Parameters<dim>::declare(ParameterFile &file)
   ParameterSection stage_section
     = root.subsection("Stages", "Stages of loading, one after the other.");
   stages = declare_stages(stage_section, bodies, rigid_bodies(*this), contact);
-  check_times_of_stages(*this, time_section);
+  check_times(*this, time_section);
   check_resets(*this, stage_section);
   set_times(stages, StageRecord<dim>(), time);
   file.check_tables(time.end_time);

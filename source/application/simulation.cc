@@ -46,7 +46,7 @@ Simulation<dim>::Simulation(const Parameters<dim> &parameters, const std::string
     , model(this->parameters, step_control.step_size(), communicator, run_log)
     , stepper(stepper_of(this->parameters, step_control, model, run_log))
     , results(directory, model.state().bodies, parameters.output.probes, parameters.output.fields,
-              model.pairs_change(), !parameters.stages.empty())
+              model.pairs_change(), {!parameters.stages.empty(), parameters.time.is_by_error()})
     , saver(this->parameters.output, directory, communicator, run_log,
             [this]() { return collect(); })
 {
@@ -165,6 +165,11 @@ Simulation<dim>::shorten_step()
           "the smallest step is longer than " + short_number(stepper->largest_step())
             + ", the largest that can be taken at time " + short_number(step_control.time()),
           "use more steps, or a smaller Minimum step fraction");
+  const StepEvent event = stepper->next_event();
+  if (event.time_left < step_control.step_size()
+      && step_control.end_before(event.time_left, !event.pair.empty()) && !event.pair.empty())
+    run_log.log.line("The next step ends at time " + short_number(step_control.next_time())
+                     + ", where contact of " + event.pair + " begins");
   if (model.is_moving() && step_control.step_size() < size)
     model.begin_again(step_control.step_size());
 }
@@ -173,7 +178,7 @@ template <int dim>
 void
 Simulation<dim>::finish_step(Attempt<dim> &attempt, const double wall_time)
 {
-  step_control.accept(attempt.record.newton_iterations);
+  step_control.accept(attempt.record.newton_iterations, attempt.error);
   const bool stage_ends = ends_stage();
   write_results(attempt.record);
   const double done = step_control.time() / parameters.time.end_time;
@@ -238,7 +243,10 @@ Simulation<dim>::try_again(const Attempt<dim> &attempt)
 {
   if (stepper->finds_another_way(attempt.outcome))
     return;
-  require(step_control.reject(), "Time",
+  const bool is_shorter = attempt.outcome == Attempt<dim>::Outcome::inaccurate
+                            ? step_control.reject(*attempt.error)
+                            : step_control.reject();
+  require(is_shorter, "Time",
           "the load step to time " + short_number(attempt.record.time)
             + " was not solved, not even with the smallest step",
           "see the reasons above; use more steps, a smaller tangential penalty factor, or "

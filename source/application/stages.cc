@@ -288,7 +288,9 @@ set_times(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim
   if (stages.empty())
     return;
   time.nominal_times.clear();
-  double begin = 0.;
+  time.stage_ends.clear();
+  time.static_steps = 0;
+  double begin      = 0.;
   for (unsigned int k = 0; k < stages.size(); ++k)
     {
       const bool   is_over = k < record.ends.size();
@@ -298,6 +300,9 @@ set_times(const std::vector<StageParameters<dim>> &stages, const StageRecord<dim
           time.nominal_times.push_back(t);
       begin = end;
       time.nominal_times.push_back(end);
+      time.stage_ends.push_back(time.nominal_times.size());
+      if (stages[k].is_static)
+        time.static_steps = time.nominal_times.size();
     }
   time.end_time = begin;
   time.steps    = time.nominal_times.size();

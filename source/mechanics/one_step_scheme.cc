@@ -1,6 +1,7 @@
 #include <scree/mechanics/added_spin.h>
 #include <scree/mechanics/one_step_scheme.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scree
@@ -34,28 +35,31 @@ newmark(const double dt, const double beta, const double gamma)
   const StepFormula::Combination v{gamma * dt * a.motion, 1. + gamma * dt * a.velocity,
                                    dt * (1. - gamma + gamma * a.acceleration)};
   const double                   weight = 0.5 / beta;
-  return {a, v, a, 0., weight, dt * (1. - gamma * weight), -weight};
+  const double                   wrong  = std::max(beta - 1. / 6., gamma - 0.5) * dt * dt;
+  return {a, v, a, 0., weight, dt * (1. - gamma * weight), -weight, {wrong, -wrong, 2}};
 }
 
 StepFormula
 backward_euler(const double dt)
 {
   const StepFormula::Combination a{1. / (dt * dt), -1. / dt, 0.};
-  return {a, {1. / dt, 0., 0.}, a};
+  return {a, {1. / dt, 0., 0.}, a, 0., 1., 0., -1., {0.5 * dt * dt, 0., 1}};
 }
 
 StepFormula
 generalized_alpha(const double dt, const double rho)
 {
   const double alpha_m = (2. * rho - 1.) / (rho + 1.), alpha_f = rho / (rho + 1.);
-  StepFormula  result
-    = newmark(dt, 0.25 * std::pow(1. - alpha_m + alpha_f, 2), 0.5 - alpha_m + alpha_f);
+  const double beta   = 0.25 * std::pow(1. - alpha_m + alpha_f, 2);
+  StepFormula  result = newmark(dt, beta, 0.5 - alpha_m + alpha_f);
   const double of_end = (1. - alpha_m) / (1. - alpha_f);
   const auto  &a      = result.acceleration;
   result.balance
     = {of_end * a.motion, of_end * a.velocity, of_end * a.acceleration + alpha_m / (1. - alpha_f)};
   result.initial_share = alpha_f / (1. - alpha_f);
   result.contact_weight *= of_end;
+  const double wrong = (beta + 0.5 * (alpha_m - alpha_f) - 1. / 6.) * dt * dt;
+  result.local_error = {wrong, -wrong, 2};
   return result;
 }
 
@@ -128,6 +132,16 @@ OneStepScheme<dim>::rates(const Mass<dim> *mass, const State<dim> &state, const 
   mass->take_off_spins(loses_spin, d, combined(of_step.start_velocity(), d, before),
                        result.velocity);
   set_rates_of_rigid(of_step, *mass, state, u, by_contact, loses_spin, result);
+  return result;
+}
+
+template <int dim>
+LocalErrorFormula
+OneStepScheme<dim>::local_error(const double step_size) const
+{
+  const StepFormula of_step = formula(step_size);
+  LocalErrorFormula result  = of_step.local_error;
+  result.mass_factor        = of_step.balance.motion;
   return result;
 }
 

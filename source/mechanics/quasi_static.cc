@@ -33,6 +33,13 @@ QuasiStatic<dim>::rates(const Mass<dim> *, const State<dim> &state, const Vector
   return {velocity, {}, {}};
 }
 
+template <int dim>
+LocalErrorFormula
+QuasiStatic<dim>::local_error(const double) const
+{
+  return {};
+}
+
 template class QuasiStatic<2>;
 template class QuasiStatic<3>;
 } // namespace scree

@@ -67,8 +67,10 @@ Results<dim>::state_columns(const Equilibrium<dim>   &equilibrium,
 {
   std::vector<std::string> names
     = {"time", "step", "newton_iterations", "attempts", "linear_iterations"};
-  if (has_stages)
+  if (of_steps.stage)
     names.push_back("stage");
+  if (of_steps.local_error)
+    names.push_back("local_error");
   const auto of_pairs = pair_columns<dim>(pairs_with_columns(contact));
   names.insert(names.end(), of_pairs.begin(), of_pairs.end());
   for (const std::string &condition : equilibrium.condition_names())

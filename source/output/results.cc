@@ -45,14 +45,15 @@ add_resultant(const dealii::Tensor<1, dim> &force, const dealii::Tensor<1, 3> &m
 template <int dim>
 Results<dim>::Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
                       const std::vector<ProbeParameters<dim>> &probes,
-                      const FieldParameters &fields, const bool pairs_change, const bool has_stages)
+                      const FieldParameters &fields, const bool pairs_change,
+                      const StepColumns &of_steps)
     : directory(directory)
     , bodies(bodies)
     , probes(probes)
     , fields(fields)
     , pairs_change(pairs_change)
-    , has_stages(has_stages)
-    , long_tables(directory, bodies, has_stages)
+    , of_steps(of_steps)
+    , long_tables(directory, bodies, of_steps.stage)
 {
   for (auto &probe : this->probes)
     probe.with_plastic_strain = may_flow(bodies[body_of_probe(probe, bodies)]);
@@ -98,8 +99,10 @@ Results<dim>::gather_history(const StepRecord &record, const Equilibrium<dim> &e
   std::vector<double> &values = history_row;
   values                      = {record.time, double(record.step), double(record.newton_iterations),
                                  double(record.attempts), double(record.linear_iterations)};
-  if (has_stages)
+  if (of_steps.stage)
     values.push_back(record.stage);
+  if (of_steps.local_error)
+    values.push_back(record.local_error);
   for (unsigned int p = 0; p < pairs_with_columns(contact).size(); ++p)
     {
       const auto &summary = summaries[p];

@@ -172,11 +172,13 @@ RunReport<dim>::step(const StepRecord &record, const ContactPoints<dim> &contact
       numbers.slip += summary.slip;
       so_far.has_touched |= summary.is_closed();
     }
-  run_log.log.line("Step " + std::to_string(record.step) + ", time " + short_number(record.time)
-                   + ": " + std::to_string(record.newton_iterations) + " iterations, residual "
-                   + short_number(record.residual) + ", " + numbers.in_words() + ", "
-                   + short_duration(run_log.timings.total()) + ", left "
-                   + short_duration(seconds_left) + ", " + resident_memory());
+  run_log.log.line(
+    "Step " + std::to_string(record.step) + ", time " + short_number(record.time) + ": "
+    + std::to_string(record.newton_iterations) + " iterations, residual "
+    + short_number(record.residual) + ", "
+    + (record.local_error > 0. ? "local error " + short_number(record.local_error) + ", " : "")
+    + numbers.in_words() + ", " + short_duration(run_log.timings.total()) + ", left "
+    + short_duration(seconds_left) + ", " + resident_memory());
   run_log.log.progress(done, "left " + short_duration(seconds_left));
 }
 

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace scree
 {
 namespace
 {
+constexpr std::int64_t ticks_of_smallest = 16; // of steps by error
+
 std::int64_t
 ticks_for(const double minimum_fraction)
 {
@@ -34,11 +37,22 @@ TimeParameters::declare(const ParameterSection &section)
   section.entry("Easy iterations", easy_iterations,
                 "After two steps in a row with this many Newton iterations at most, a shortened "
                 "step is doubled again.");
+  section.entry(
+    "Local error", local_error, dealii::Patterns::Double(0., 1.),
+    "Tolerance of |e|/(V dt), by which steps with inertia are longer or shorter than nominal ones: "
+    "the displacement that the scheme adds wrongly in a step, over the way of the largest speed so "
+    "far; rms values of bodies. Displacements at time t are then wrong by about this part of V t. "
+    "With accelerations a, Newmark: e = max(beta - 1/6, gamma - 1/2) dt^2 (a_n+1 - a_n) "
+    "(Zienkiewicz & Xie 1991), backward Euler: e = dt^2 a_n+1/2. Steps end where bodies come into "
+    "contact. 0: steps are nominal ones; no dimension.");
+  section.entry("Maximum step fraction", maximum_step_fraction, dealii::Patterns::Double(1., 1e6),
+                "With Local error: steps are at most as long as so many nominal ones.");
 }
 
 StepControl::StepControl(const TimeParameters &parameters)
     : parameters(parameters)
-    , ticks_per_step(ticks_for(parameters.minimum_step_fraction))
+    , smallest_ticks(parameters.is_by_error() ? ticks_of_smallest : 1)
+    , ticks_per_step(smallest_ticks * ticks_for(parameters.minimum_step_fraction))
     , end_tick(static_cast<std::int64_t>(parameters.steps) * ticks_per_step)
     , length(ticks_per_step)
 {
@@ -94,13 +108,25 @@ StepControl::n_rejected() const
 }
 
 void
-StepControl::accept(const unsigned int newton_iterations)
+StepControl::accept(const unsigned int newton_iterations, const std::optional<StepError> &error)
 {
   Assert(!finished(), dealii::ExcMessage("The end time is reached."));
-  tick += step_ticks();
+  const bool         by_error = is_by_error(), is_cut = longest > 0;
+  const std::int64_t taken = step_ticks();
+  tick += taken;
   longest = 0;
   ++accepted;
   easy_in_a_row = newton_iterations <= parameters.easy_iterations ? easy_in_a_row + 1 : 0;
+  if (by_error)
+    {
+      // A step that was cut short tells nothing of the length that was wanted.
+      if (!error || is_cut || taken < length)
+        return;
+      const double factor = controller.accept(*error);
+      if (factor < 1. || easy_in_a_row >= 2)
+        length = scaled(taken, factor);
+      return;
+    }
   if (easy_in_a_row >= 2 && length < ticks_per_step)
     {
       length        = std::min(2 * length, ticks_per_step);
@@ -114,9 +140,20 @@ StepControl::reject()
   Assert(!finished(), dealii::ExcMessage("The end time is reached."));
   ++rejected;
   easy_in_a_row = 0;
-  if (step_ticks() == 1)
+  if (is_smallest())
     return false;
-  length  = step_ticks() / 2;
+  length  = std::max(step_ticks() / 2, smallest_ticks);
+  longest = 0;
+  return true;
+}
+
+bool
+StepControl::reject(const StepError &error)
+{
+  ++rejected;
+  if (is_smallest())
+    return false;
+  length  = scaled(step_ticks(), StepSizeController::reject(error));
   longest = 0;
   return true;
 }
@@ -126,9 +163,9 @@ StepControl::shorten(const double size)
 {
   while (step_size() > size)
     {
-      if (step_ticks() == 1)
+      if (is_smallest())
         return false;
-      length  = step_ticks() / 2;
+      length  = std::max(step_ticks() / 2, smallest_ticks);
       longest = 0;
     }
   return true;
@@ -138,8 +175,23 @@ bool
 StepControl::cut(const double part)
 {
   const std::int64_t before = step_ticks();
-  longest = std::clamp<std::int64_t>(std::llround(part * static_cast<double>(before)), 1, before);
+  longest = std::clamp<std::int64_t>(std::llround(part * static_cast<double>(before)),
+                                     std::min(smallest_ticks, before), before);
   return step_ticks() < before;
+}
+
+bool
+StepControl::end_before(const double size, const bool begins_anew)
+{
+  Assert(is_by_error(), dealii::ExcInternalError());
+  const double       tick_time = nominal_length() / static_cast<double>(ticks_per_step);
+  const std::int64_t ticks     = std::floor(std::min(size, step_size()) / tick_time);
+  if (ticks < smallest_ticks || ticks >= step_ticks())
+    return false;
+  longest = ticks;
+  if (begins_anew)
+    length = std::min(length, ticks_per_step);
+  return true;
 }
 
 void
@@ -161,7 +213,7 @@ StepControl::record() const
     = parameters.nominal_times.empty()
         ? time_of(length)
         : nominal_length() * static_cast<double>(length) / static_cast<double>(ticks_per_step);
-  return {time(), wanted, easy_in_a_row, accepted, rejected};
+  return {time(), wanted, easy_in_a_row, accepted, rejected, controller.last_ratio()};
 }
 
 void
@@ -185,10 +237,14 @@ StepControl::resume(const StepControlRecord &record)
             + std::to_string(record.time),
           "change Steps together with End time, such that the length of a step remains");
   const double tick_time = nominal_length() / static_cast<double>(ticks_per_step);
-  length = std::clamp<std::int64_t>(std::llround(record.length / tick_time), 1, ticks_per_step);
+  length        = std::clamp<std::int64_t>(std::llround(record.length / tick_time), smallest_ticks,
+                                    is_by_error() ? largest_ticks() : ticks_per_step);
   easy_in_a_row = record.easy_in_a_row;
   accepted      = record.accepted;
   rejected      = record.rejected;
+  require(record.last_ratio > 0. && std::isfinite(record.last_ratio), "the checkpoint",
+          "the error of its last step cannot be", "start the run anew");
+  controller.set_last_ratio(record.last_ratio);
 }
 
 double
@@ -239,9 +295,36 @@ StepControl::tick_at(const double time) const
 }
 
 std::int64_t
+StepControl::largest_ticks() const
+{
+  return std::llround(parameters.maximum_step_fraction * static_cast<double>(ticks_per_step));
+}
+
+std::int64_t
+StepControl::scaled(const std::int64_t ticks, const double factor) const
+{
+  return std::clamp<std::int64_t>(std::floor(factor * static_cast<double>(ticks)), smallest_ticks,
+                                  largest_ticks());
+}
+
+std::int64_t
+StepControl::ticks_to_go() const
+{
+  for (const std::int64_t steps : parameters.stage_ends)
+    if (tick < steps * ticks_per_step)
+      return steps * ticks_per_step - tick;
+  return tick < end_tick ? end_tick - tick : std::numeric_limits<std::int64_t>::max();
+}
+
+std::int64_t
 StepControl::step_ticks() const
 {
-  const std::int64_t ticks = std::min(length, ticks_per_step - tick % ticks_per_step);
+  std::int64_t ticks = std::min(length, ticks_per_step - tick % ticks_per_step);
+  if (is_by_error())
+    {
+      const std::int64_t to_go = ticks_to_go();
+      ticks = length >= to_go ? to_go : length > to_go / 2 ? (to_go + 1) / 2 : length;
+    }
   return longest > 0 ? std::min(ticks, longest) : ticks;
 }
 } // namespace scree

@@ -30,7 +30,7 @@ struct Header
 };
 
 constexpr char          mark[16] = "scree restart\n\x1a";
-constexpr std::uint32_t format   = 11;
+constexpr std::uint32_t format   = 12;
 
 /** Why a file is no usable checkpoint. */
 struct Damage

@@ -155,6 +155,35 @@ TEST(TimeScheme, Orders)
     }
 }
 
+// Of u'' = -w^2 u, in a step from the exact u and v, and a_n where the scheme has it.
+TEST(TimeScheme, LocalErrors)
+{
+  constexpr double w = 3., dt = 1e-3, rho = 0.6;
+  const double     theta = (2. * rho - 1.) / (rho + 1.) - rho / (rho + 1.);
+  struct Case
+  {
+    StepFormula of_step;
+    double      shift; // of a_n, in steps
+  };
+  for (const auto &[of_step, shift] :
+       {Case{newmark(dt, 0.25, 0.5), 0.}, Case{newmark(dt, 0.4, 0.5), 0.},
+        Case{backward_euler(dt), 0.}, Case{generalized_alpha(dt, rho), theta}})
+    {
+      const double t = 0.7, u = std::cos(w * t), v = -w * std::sin(w * t),
+                   a = -w * w * std::cos(w * (t + shift * dt));
+      // a*(d) + w^2 (u + d + share u) = 0, linear in d.
+      const double d = -(of_step.balance(0., v, a) + w * w * (1. + of_step.initial_share) * u)
+                       / (of_step.balance.motion + w * w);
+      const double error   = u + d - std::cos(w * (t + dt));
+      const auto  &formula = of_step.local_error;
+      const double estimated
+        = formula.at_end * of_step.acceleration(d, v, a) + formula.at_start * a;
+      EXPECT_NEAR(estimated, error, 0.02 * std::abs(error));
+    }
+  // gamma > 1/2: the velocity is of the first order.
+  EXPECT_DOUBLE_EQ(newmark(dt, 0.5, 0.95).local_error.at_end, 0.45 * dt * dt);
+}
+
 TEST(TimeScheme, QuasiStaticHasNoInertia)
 {
   EquilibriumModel<2>  model(grid_text("-1, -1", "1, 1", "4, 4", 1) + degree_text(1)

@@ -139,6 +139,104 @@ TEST(StepControl, StepsAreShortenedWithoutARejection)
   EXPECT_EQ(control.n_rejected(), 0u);
 }
 
+/** Steps by error, nominal ones of length 1. */
+TimeParameters
+times_by_error(const unsigned int steps)
+{
+  TimeParameters parameters        = times(steps, steps, 1. / 64);
+  parameters.local_error           = 1e-3;
+  parameters.maximum_step_fraction = 4.;
+  return parameters;
+}
+
+constexpr StepError none = {0., 2}, too_large = {100., 2}, right = {0.5, 2};
+
+TEST(StepControl, StepsByErrorBecomeLongAndEndWithTheRun)
+{
+  StepControl         control(times_by_error(20));
+  std::vector<double> sizes;
+  while (!control.finished())
+    {
+      sizes.push_back(control.step_size());
+      control.accept(easy, none);
+    }
+  // Double after two steps, at most 4 nominal ones; no small one is left in the end.
+  EXPECT_EQ(sizes, (std::vector<double>{1, 1, 2, 4, 4, 4, 4}));
+  EXPECT_EQ(control.time(), 20.);
+}
+
+TEST(StepControl, StepsByErrorAreShortenedByTheirError)
+{
+  StepControl control(times_by_error(20));
+  EXPECT_TRUE(control.reject(too_large));
+  EXPECT_NEAR(control.step_size(), 0.2, 1. / 1024);
+  EXPECT_TRUE(control.reject(too_large));
+  EXPECT_TRUE(control.reject(too_large));
+  EXPECT_TRUE(control.is_smallest());
+  EXPECT_EQ(control.step_size(), 1. / 64);
+  EXPECT_FALSE(control.reject(too_large));
+  EXPECT_EQ(control.n_rejected(), 4u);
+  control.accept(easy, none);
+  control.accept(hard, none);
+  EXPECT_EQ(control.step_size(), 1. / 64);
+  control.accept(easy, none);
+  control.accept(easy, none);
+  EXPECT_EQ(control.step_size(), 1. / 32);
+  control.accept(easy); // The error is not known.
+  EXPECT_EQ(control.step_size(), 1. / 32);
+}
+
+TEST(StepControl, StepsByErrorEndWhereStagesDo)
+{
+  TimeParameters parameters = times_by_error(6);
+  parameters.nominal_times  = {0.5, 1., 2., 3., 4., 5.};
+  parameters.end_time       = 5.;
+  parameters.stage_ends     = {2, 6};
+  parameters.static_steps   = 2;
+  StepControl         control(parameters);
+  std::vector<double> ends;
+  while (!control.finished())
+    {
+      control.accept(easy, none);
+      ends.push_back(control.time());
+    }
+  // The first stage has no error, and nominal steps. Two of three left would leave one.
+  EXPECT_EQ(ends, (std::vector<double>{0.5, 1., 2., 3.5, 5.}));
+}
+
+TEST(StepControl, AStepByErrorEndsBeforeAnEvent)
+{
+  StepControl control(times_by_error(20));
+  for (unsigned int n = 0; n < 4; ++n)
+    control.accept(easy, none);
+  const double begin = control.time();
+  EXPECT_FALSE(control.end_before(5., true));
+  EXPECT_FALSE(control.end_before(0.5 / 64, true));
+  EXPECT_TRUE(control.end_before(0.7001, true));
+  EXPECT_LE(control.step_size(), 0.7001);
+  EXPECT_GT(control.step_size(), 0.7001 - 1. / 1024);
+  control.accept(easy, none);
+  EXPECT_NEAR(control.time(), begin + 0.7, 1. / 1024);
+  EXPECT_EQ(control.step_size(), 1.); // A nominal one, whatever it was before.
+}
+
+TEST(StepControl, StepsByErrorGoOnFromTheirRecord)
+{
+  StepControl control(times_by_error(20)), other(times_by_error(20));
+  for (const double ratio : {0.5, 0.01, 0.2, 0.7})
+    control.accept(easy, StepError{ratio, 2});
+  other.resume(control.record());
+  for (unsigned int n = 0; n < 5; ++n)
+    {
+      EXPECT_EQ(other.next_time(), control.next_time());
+      control.accept(easy, right);
+      other.accept(easy, right);
+    }
+  StepControlRecord damaged = control.record();
+  damaged.last_ratio        = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(other.resume(damaged), UserError);
+}
+
 TEST(TimeParameters, AreReadAndChecked)
 {
   ParameterFile  good = ParameterFile::from_string("set End time = 2.5\nset Steps = 4\n");

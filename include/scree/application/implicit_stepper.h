@@ -2,6 +2,7 @@
 
 #include <scree/application/contact_closing.h>
 #include <scree/application/relaxation.h>
+#include <scree/application/step_accuracy.h>
 #include <scree/application/stepper.h>
 #include <scree/contact/status_changes.h>
 #include <scree/mechanics/time_scheme.h>
@@ -30,6 +31,7 @@ public:
   /** Resolves overlap; lets free bodies fall before the first step. */
   void          begin() override;
   double        largest_step() const override;
+  StepEvent     next_event() const override;
   Attempt<dim>  attempt() override;
   bool          finds_another_way(const typename Attempt<dim>::Outcome outcome) override;
   StepperRecord recorded() const override;
@@ -53,6 +55,8 @@ public:
   double largest_free_motion(const Vector &u) const;
 
 private:
+  /** take_motion() if there is mass; false, with the outcome, if StepAccuracy::test() fails. */
+  bool takes_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt);
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
@@ -92,6 +96,7 @@ private:
   RunLog                &run_log;
   ContactClosing<dim>    closing;
   Relaxation<dim>        relaxation;
+  StepAccuracy<dim>      accuracy;
   StepRecord             record;                    //!< that is being solved
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt

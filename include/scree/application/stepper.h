@@ -5,7 +5,10 @@
 #include <scree/solver/step_control.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace scree
 {
@@ -16,14 +19,16 @@ struct Attempt
   enum class Outcome
   {
     accepted,
-    unsolved,  //!< no equilibrium was found
-    too_large, //!< one was found, too far for the moving geometry
+    unsolved,   //!< no equilibrium was found
+    too_large,  //!< one was found, too far for the moving geometry
+    inaccurate, //!< one was found, with too large an error
     interrupted
   };
 
-  Outcome             outcome = Outcome::unsolved;
-  StepRecord          record;
-  MaterialPoints<dim> points; //!< after an accepted step on a moving geometry
+  Outcome                  outcome = Outcome::unsolved;
+  StepRecord               record;
+  MaterialPoints<dim>      points; //!< after an accepted step on a moving geometry
+  std::optional<StepError> error;  //!< of a step that was accepted or inaccurate; none: not known
 
   bool is_accepted() const
   {
@@ -31,15 +36,23 @@ struct Attempt
   }
 };
 
+/** Where a step by error should end. */
+struct StepEvent
+{
+  double      time_left = std::numeric_limits<double>::infinity(); //!< until then
+  std::string pair; //!< whose contact begins there; empty: the geometry moves as far as it may
+};
+
 /** What a Stepper keeps from step to step beside the State. */
 struct StepperRecord
 {
-  bool is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
+  bool   is_second_attempt = false; //!< how steps are tried, see Equilibrium::set_second_attempt()
+  double largest_speed     = 0.;    //!< of a body so far, see StepAccuracy [L/time]
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &is_second_attempt;
+    archive &is_second_attempt &largest_speed;
   }
 };
 
@@ -59,6 +72,12 @@ public:
 
   /** The largest step of the present state [time]; infinity: any. */
   virtual double largest_step() const = 0;
+
+  /** Where the step should end that the step control says. */
+  virtual StepEvent next_event() const
+  {
+    return {};
+  }
 
   /** One attempt of the step that the step control says. */
   virtual Attempt<dim> attempt() = 0;

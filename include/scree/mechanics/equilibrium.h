@@ -90,9 +90,11 @@ public:
 
   /** Sets the prescribed unknowns of the time of set_time() in `u`. */
   void set_prescribed(Vector &u) const;
-
   /** r(u) with the contact history at the start of the step; 0 on prescribed and hanging rows. */
   void residual(const Vector &u, const ContactHistory<dim> &history, Vector &r);
+
+  /** Sets prescribed and hanging rows to zero. */
+  void set_zero_where_not_sought(Vector &r) const;
 
   /** K at the last residual(), prescribed rows and columns eliminated. */
   const Matrix &tangent();
@@ -200,8 +202,6 @@ private:
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void hold_moments(Vector &r);
   void set_zero_on_prescribed(Vector &r) const;
-  /** The same on hanging nodes. */
-  void set_zero_where_not_sought(Vector &r) const;
   void start_tangent(); //!< K = A + c M, with the inertia of rigid bodies
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;

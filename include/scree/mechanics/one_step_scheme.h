@@ -27,12 +27,13 @@ struct StepFormula
       return motion * d + velocity * v + acceleration * a;
     }
   };
-  Combination balance;                  //!< a* of r(u) + share r(u_n) + weight r_c(u) = M a*
-  Combination velocity;                 //!< v at the end of the step, but for what contact adds
-  Combination acceleration;             //!< a at the end of the step, but for what contact adds
-  double      initial_share       = 0.; //!< of r(u_n), see Rates::forces
-  double      contact_weight      = 1.;
-  double      velocity_by_contact = 0., acceleration_by_contact = -1.; //!< factors of a_c
+  Combination       balance;      //!< a* of r(u) + share r(u_n) + weight r_c(u) = M a*
+  Combination       velocity;     //!< v at the end of the step, but for what contact adds
+  Combination       acceleration; //!< a at the end of the step, but for what contact adds
+  double            initial_share       = 0.; //!< of r(u_n), see Rates::forces
+  double            contact_weight      = 1.;
+  double            velocity_by_contact = 0., acceleration_by_contact = -1.; //!< factors of a_c
+  LocalErrorFormula local_error = {};
 
   /** M a = r(u), so that the moments of M a are those of forces. */
   bool balances_at_end() const
@@ -47,10 +48,14 @@ struct StepFormula
 /**
  * Newmark's method: d = dt v_n + dt^2/2 ((1 - 2 beta) a_n + 2 beta a + a_c),
  * v = v_n + dt ((1 - gamma) a_n + gamma a + a_c), a* = a + a_c/(2 beta).
+ *
+ * Without a_c d is wrong by (beta - 1/6) dt^2 (a - a_n) (Zienkiewicz & Xie 1991), v by
+ * (gamma - 1/2) dt (a - a_n): the local error is the larger one of the first and dt times the
+ * second.
  */
 StepFormula newmark(const double dt, const double beta, const double gamma);
 
-/** v = d/dt, a* = a + a_c = (v - v_n)/dt. */
+/** v = d/dt, a* = a + a_c = (v - v_n)/dt; d is wrong by dt^2 a/2. */
 StepFormula backward_euler(const double dt);
 
 /**
@@ -58,6 +63,9 @@ StepFormula backward_euler(const double dt);
  * (1 - alpha_m) M a + alpha_m M a_n = (1 - alpha_f) r(u) + alpha_f r(u_n), alpha_m = (2 rho - 1)/
  * (rho + 1), alpha_f = rho/(rho + 1), gamma = 1/2 - alpha_m + alpha_f,
  * beta = (1 - alpha_m + alpha_f)^2/4.
+ *
+ * Its a_n is the acceleration at t_n + theta dt, theta = alpha_m - alpha_f, so that d is wrong by
+ * (beta + theta/2 - 1/6) dt^2 (a - a_n), v by less.
  *
  * @param rho the spectral radius at infinite frequency, 0 to 1
  */
@@ -76,11 +84,12 @@ public:
   /** u_n + dt v_n + dt^2/2 a_n. */
   std::optional<Vector> predicted(const Kinematics<dim> &kinematics, const State<dim> &state,
                                   const double time) const override;
-  Inertia<dim> inertia(const std::shared_ptr<const Mass<dim>> &mass, const State<dim> &state,
-                       const double time) const override;
-  Rates        rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-                     const Vector &by_contact, const std::vector<bool> &turns_freely,
-                     const double time) const override;
+  Inertia<dim>      inertia(const std::shared_ptr<const Mass<dim>> &mass, const State<dim> &state,
+                            const double time) const override;
+  Rates             rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
+                          const Vector &by_contact, const std::vector<bool> &turns_freely,
+                          const double time) const override;
+  LocalErrorFormula local_error(const double step_size) const override;
 
 private:
   /** What rates() does to rigid bodies. */

@@ -17,8 +17,9 @@ public:
   Inertia<dim> inertia(const std::shared_ptr<const Mass<dim>> &mass, const State<dim> &state,
                        const double time) const override;
   /** Without an acceleration. */
-  Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
-              const Vector &by_contact, const std::vector<bool> &turns_freely,
-              const double time) const override;
+  Rates             rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
+                          const Vector &by_contact, const std::vector<bool> &turns_freely,
+                          const double time) const override;
+  LocalErrorFormula local_error(const double step_size) const override;
 };
 } // namespace scree

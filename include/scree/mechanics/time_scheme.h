@@ -12,6 +12,17 @@
 namespace scree
 {
 /**
+ * The displacement that a scheme adds wrongly in a step, by its accelerations with those of
+ * contact, e = at_end a_{n+1} + at_start a_n; e/dt is of the order p in dt.
+ */
+struct LocalErrorFormula
+{
+  double       at_end = 0., at_start = 0.; //!< [time^2]
+  unsigned int order       = 1;            //!< p
+  double       mass_factor = 0.;           //!< c of c M in the tangent [1/time^2]
+};
+
+/**
  * How the equations are integrated in time. A step to t_{n+1} solves r(u) - M a = 0, where the
  * scheme says what the acceleration a is of the unknown u. The equations know the Inertia, not the
  * scheme. State::predictor has the rates at the start of the step.
@@ -42,6 +53,9 @@ public:
   virtual Rates rates(const Mass<dim> *mass, const State<dim> &state, const Vector &u,
                       const Vector &by_contact, const std::vector<bool> &turns_freely,
                       const double time) const = 0;
+
+  /** The leading term of the local error of a step of a size [time]; zero without inertia. */
+  virtual LocalErrorFormula local_error(const double step_size) const = 0;
 };
 
 /** The names that TimeSchemeParameters::scheme may have. */

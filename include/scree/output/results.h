@@ -48,6 +48,13 @@ struct ResultsRecord
   }
 };
 
+/** Which columns tables with a row per step have beside those of all runs. */
+struct StepColumns
+{
+  bool stage       = false;
+  bool local_error = false; //!< of history.csv
+};
+
 /**
  * The files of a run: history.csv with a row per load step, see also LongTables, VTU and CSV files
  * of bodies, contact and force chains with PVD records, tables of probes and lines. All functions
@@ -64,11 +71,11 @@ public:
 
   /**
    * @param pairs_change from step to step: history.csv has no columns of them
-   * @param has_stages   whether tables with a row per step have the column `stage`
+   * @param of_steps     columns of tables with a row per step
    */
   Results(const std::string &directory, const std::vector<Body<dim>> &bodies,
           const std::vector<ProbeParameters<dim>> &probes, const FieldParameters &fields,
-          const bool pairs_change, const bool has_stages);
+          const bool pairs_change, const StepColumns &of_steps);
 
   /** What the next results refer to; to be told whenever it was made anew. */
   void set_discretization(const DisplacementSpace<dim> &space,
@@ -173,7 +180,8 @@ private:
   const std::vector<Body<dim>>               &bodies;
   std::vector<ProbeParameters<dim>>           probes;
   FieldParameters                             fields;
-  bool                                        pairs_change, has_stages;
+  bool                                        pairs_change;
+  StepColumns                                 of_steps;
   const DisplacementSpace<dim>               *space = nullptr;
   const LevelSetNodes<dim>                   *nodes = nullptr;
   std::unique_ptr<BodyOutput<dim>>            body_output;      //!< made when first needed

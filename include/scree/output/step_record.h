@@ -14,6 +14,7 @@ struct StepRecord
   unsigned int        attempts          = 1; //!< 1 + number of cuts before
   unsigned int        linear_iterations = 0;
   double              residual          = 0.; //!< |r| at the end
+  double              local_error       = 0.; //!< over the way of the largest speed, see LocalError
   std::vector<double> momenta           = {}; //!< with inertia, of body after body: linear, angular
 };
 } // namespace scree

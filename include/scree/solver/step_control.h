@@ -1,8 +1,10 @@
 #pragma once
 
 #include <scree/parameters/section.h>
+#include <scree/solver/step_size_controller.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -25,6 +27,24 @@ struct TimeParameters
   /** A step that took this many Newton iterations or fewer was easy. */
   unsigned int easy_iterations = 10;
 
+  /** Tolerance of the local error of the time scheme, see LocalError; 0: steps are nominal ones. */
+  double local_error = 0.;
+
+  /** Steps by error are at most so many nominal ones, >= 1. */
+  double maximum_step_fraction = 8.;
+
+  /** Numbers of nominal steps in front of the ends of stages; empty: there are no stages. */
+  std::vector<unsigned int> stage_ends;
+
+  /** Nominal steps in front of the first one with inertia. */
+  unsigned int static_steps = 0;
+
+  /** Whether steps with inertia are as long as their error allows. */
+  bool is_by_error() const
+  {
+    return local_error > 0.;
+  }
+
   /** Reads the entries of the section and records what is not allowed. */
   void declare(const ParameterSection &section);
 };
@@ -37,11 +57,12 @@ struct StepControlRecord
   unsigned int easy_in_a_row = 0;  //!< accepted easy steps since the length changed
   unsigned int accepted      = 0;
   unsigned int rejected      = 0;
+  double       last_ratio    = 1.; //!< of the StepSizeController
 
   template <class Archive>
   void serialize(Archive &archive, const unsigned int)
   {
-    archive &time &length &easy_in_a_row &accepted &rejected;
+    archive &time &length &easy_in_a_row &accepted &rejected &last_ratio;
   }
 };
 
@@ -50,8 +71,13 @@ struct StepControlRecord
  * two easy steps the length is doubled, up to the nominal one. Every nominal time, k T/n or
  * `nominal_times`, is met exactly, a step that would pass one is shortened.
  *
+ * Steps by error begin with a nominal one; then the StepSizeController says their length, within
+ * the minimum and the maximum fraction. They end exactly where stages and the run do, nominal times
+ * mean nothing. A step that would leave less than its length until then takes half the way.
+ *
  * Time is counted in ticks, each a nominal step over 2^m, with 2^-m the smallest power of two that
- * is not below the minimum fraction, so that no rounding accumulates.
+ * is not below the minimum fraction, so that no rounding accumulates; with steps by error a
+ * sixteenth of that.
  *
  *     while (!control.finished())
  *       if (solve(control.next_time()))     control.accept(iterations);
@@ -87,11 +113,25 @@ public:
   /** Number of rejected steps. */
   unsigned int n_rejected() const;
 
-  /** The step succeeded with so many Newton iterations: moves to next_time(). */
-  void accept(const unsigned int newton_iterations);
+  /**
+   * The step succeeded with so many Newton iterations: moves to next_time().
+   *
+   * @param error of a step by error; none: it is not known, and the length of steps stays
+   */
+  void accept(const unsigned int              newton_iterations,
+              const std::optional<StepError> &error = std::nullopt);
 
   /** The step failed: halves it. Returns false if it was already as small as allowed. */
   bool reject();
+
+  /** The error of the step is too large: makes it shorter. False as reject(). */
+  bool reject(const StepError &error);
+
+  /** Whether the step to be tried now is as small as allowed. */
+  bool is_smallest() const
+  {
+    return step_ticks() <= smallest_ticks;
+  }
 
   /** Halves the step until it is at most `size` [time]; false: it is as small as allowed before. */
   bool shorten(const double size);
@@ -101,6 +141,14 @@ public:
    * false: it is as short already.
    */
   bool cut(const double part);
+
+  /**
+   * Lets the step that comes now, by error, end a tick or less before `size` [time] is over; false:
+   * it would be smaller than allowed, or is as short.
+   *
+   * @param begins_anew whether the next step is a nominal one at most
+   */
+  bool end_before(const double size, const bool begins_anew);
 
   /** Goes on, at the present time, with other nominal times, of which it is one. */
   void change_times(const TimeParameters &parameters);
@@ -124,14 +172,31 @@ private:
 
   std::int64_t step_ticks() const;
 
-  TimeParameters parameters;
-  std::int64_t   ticks_per_step;    // of a nominal step, 2^m
-  std::int64_t   end_tick;          // steps * ticks_per_step
-  std::int64_t   tick = 0;          // the present time
-  std::int64_t   length;            // wanted length of the next step, in ticks
-  std::int64_t   longest       = 0; // of the step to be tried now, in ticks; 0: any
-  unsigned int   easy_in_a_row = 0; // accepted easy steps since the length changed
-  unsigned int   accepted      = 0;
-  unsigned int   rejected      = 0;
+  /** Whether the step that comes is one by error. */
+  bool is_by_error() const
+  {
+    return parameters.is_by_error() && tick >= parameters.static_steps * ticks_per_step;
+  }
+
+  /** The longest step by error, in ticks. */
+  std::int64_t largest_ticks() const;
+
+  /** So many ticks times a factor, within the bounds of steps by error. */
+  std::int64_t scaled(const std::int64_t ticks, const double factor) const;
+
+  /** From the present time to the end of the stage or the run, in ticks; beyond it: any number. */
+  std::int64_t ticks_to_go() const;
+
+  TimeParameters     parameters;
+  StepSizeController controller;
+  std::int64_t       smallest_ticks;    // of a step
+  std::int64_t       ticks_per_step;    // of a nominal step, 2^m
+  std::int64_t       end_tick;          // steps * ticks_per_step
+  std::int64_t       tick = 0;          // the present time
+  std::int64_t       length;            // wanted length of the next step, in ticks
+  std::int64_t       longest       = 0; // of the step to be tried now, in ticks; 0: any
+  unsigned int       easy_in_a_row = 0; // accepted easy steps since the length changed
+  unsigned int       accepted      = 0;
+  unsigned int       rejected      = 0;
 };
 } // namespace scree
