@@ -140,7 +140,8 @@ ImplicitStepper<dim>::attempt()
   const NewtonResult result = solve_step(u);
   record.newton_iterations  = result.iterations;
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
-  Attempt<dim> attempt{Attempt<dim>::Outcome::unsolved, record, {}, {}};
+  Attempt<dim> attempt;
+  attempt.record = record;
   if (result.status == NewtonStatus::interrupted)
     {
       if (relaxation.is_pending())
