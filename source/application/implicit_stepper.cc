@@ -415,8 +415,10 @@ ImplicitStepper<dim>::solve_step(Vector &u)
       result.message = "bodies slide along each other until nothing presses any more";
       return result;
     }
-  run_log.log.line("Warning: contact carries nothing at time " + short_number(record.time)
-                   + ": a body that nothing else holds moves away from what presses it");
+  if (run_log.warnings.is_new(Warning::lost_contact, 0))
+    run_log.log.line("Warning: contact carries nothing at time " + short_number(record.time)
+                     + ": bodies that nothing else holds move away from what presses them (told "
+                       "once)");
   return result;
 }
 

@@ -120,7 +120,8 @@ LinearSolverParameters::declare(const ParameterSection &section)
     "dimensions.");
   section.entry(
     "Direct up to (3D)", direct_up_to_3d,
-    "The same in three dimensions; six times as many of degree 2, whose multigrid is slow.");
+    "The same in three dimensions, of all a twentieth; six times as many of degree 2, whose "
+    "multigrid is slow.");
   section.entry("Direct package", direct_package, package_names,
                 "Direct solver. automatic: KLU for small systems on one process, else MUMPS.");
   section.entry(
@@ -364,8 +365,8 @@ LinearSolver::set_largest_body(const std::size_t n_unknowns)
 bool
 LinearSolver::is_direct(const std::size_t n_unknowns) const
 {
-  constexpr std::size_t many = 10;
-  const std::size_t     size
+  const std::size_t many = dimension == 2 ? 10 : 20;
+  const std::size_t size
     = largest_body == 0 ? n_unknowns : std::max(largest_body, n_unknowns / many);
   if (parameters.type != LinearSolverType::automatic)
     return parameters.type == LinearSolverType::direct;

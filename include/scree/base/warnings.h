@@ -17,7 +17,8 @@ enum class Warning : unsigned int
   turned,         // too far for linear kinematics
   strained,       // too much for them
   under_resolved, // contact at very few points
-  may_have_met    // without contact points
+  may_have_met,   // without contact points
+  lost_contact    // nothing presses any more; of no body
 };
 
 /** What a run has warned about; a run that is resumed does not tell it again. */

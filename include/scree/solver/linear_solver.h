@@ -60,8 +60,9 @@ struct LinearSolverParameters
 {
   LinearSolverType type = LinearSolverType::automatic;
 
-  /** Unknowns of the largest body, or a tenth of all, up to which `automatic` solves directly in
-   * two and in three dimensions, there six times as many of degree 2, whose multigrid is slow. */
+  /** Unknowns of the largest body, or a tenth of all (in three dimensions a twentieth), up to which
+   * `automatic` solves directly in two and in three dimensions, there six times as many of degree
+   * 2, whose multigrid is slow. */
   unsigned int direct_up_to_2d = 300000;
   unsigned int direct_up_to_3d = 10000;
 
