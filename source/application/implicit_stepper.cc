@@ -124,12 +124,11 @@ template <int dim>
 Attempt<dim>
 ImplicitStepper<dim>::attempt()
 {
-  const double          time    = step_control.next_time();
   DiscreteProblem<dim> &problem = model.problem();
   RunReport<dim>        report(run_log);
-  record      = StepRecord();
-  record.step = step_control.n_accepted() + 1;
-  record.time = time;
+  record            = StepRecord();
+  record.step       = step_control.n_accepted() + 1;
+  const double time = record.time = step_control.next_time();
   problem.equilibrium().set_second_attempt(is_second_attempt);
   const TimeScheme<dim> &scheme = model.time_scheme();
   problem.equilibrium().set_inertia(scheme.inertia(problem.mass, model.state(), time));

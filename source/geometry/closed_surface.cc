@@ -7,6 +7,7 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -152,6 +153,22 @@ ClosedSurface::signed_distance(const Point<3> &x) const
   const Kernel::Point_3 point(x[0], x[1], x[2]);
   const double          distance = std::sqrt(tree->faces.squared_distance(point));
   return tree->side(point) == CGAL::ON_BOUNDED_SIDE ? -distance : distance;
+}
+
+Tensor<1, 3>
+ClosedSurface::gradient(const Point<3> &x, const double near) const
+{
+  const Kernel::Point_3 point(x[0], x[1], x[2]);
+  const auto [foot, face]    = tree->faces.closest_point_and_primitive(point);
+  Kernel::Vector_3 direction = point - foot;
+  if (direction.squared_length() < near * near)
+    direction = PMP::compute_face_normal(face, tree->mesh);
+  else if (tree->side(point) == CGAL::ON_BOUNDED_SIDE)
+    direction = -direction;
+  Tensor<1, 3> result;
+  for (unsigned int d = 0; d < 3; ++d)
+    result[d] = direction[d];
+  return result / result.norm();
 }
 
 double

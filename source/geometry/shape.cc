@@ -6,6 +6,13 @@
 namespace scree
 {
 template <int dim>
+std::optional<dealii::Tensor<1, dim>>
+Shape<dim>::exact_gradient(const dealii::Point<dim> &, const double) const
+{
+  return {};
+}
+
+template <int dim>
 bool
 Shape<dim>::is_distance() const
 {
@@ -42,7 +49,9 @@ Shape<dim>::append_pieces(const dealii::BoundingBox<dim> &box,
   const double reach         = 0.5 * (upper - lower).norm();
   if (is_distance() && std::abs(signed_distance(lower + 0.5 * (upper - lower))) > reach)
     return;
-  pieces.emplace_back([this](const dealii::Point<dim> &x) { return signed_distance(x); });
+  pieces.emplace_back(
+    [this](const dealii::Point<dim> &x) { return signed_distance(x); },
+    [this](const dealii::Point<dim> &x, const double near) { return exact_gradient(x, near); });
 }
 
 template <int dim>

@@ -15,8 +15,9 @@ SmoothPiece<dim>::SmoothPiece(const Point<dim> &point, const Tensor<1, dim> &nor
 }
 
 template <int dim>
-SmoothPiece<dim>::SmoothPiece(const LevelSet &level_set)
+SmoothPiece<dim>::SmoothPiece(const LevelSet &level_set, const Gradient &exact_gradient)
     : level_set(level_set)
+    , exact_gradient(exact_gradient)
 {
   Assert(level_set, ExcMessage("A curved piece needs a level set."));
 }
@@ -34,6 +35,9 @@ SmoothPiece<dim>::gradient(const Point<dim> &x, const double step) const
 {
   if (is_plane())
     return plane_normal;
+  if (exact_gradient)
+    if (const auto exact = exact_gradient(x, step))
+      return *exact;
   Tensor<1, dim> result;
   for (unsigned int d = 0; d < dim; ++d)
     {
@@ -79,7 +83,15 @@ SmoothPiece<dim>::reversed() const
 {
   if (is_plane())
     return SmoothPiece(point, -plane_normal);
-  return SmoothPiece([phi = level_set](const Point<dim> &x) { return -phi(x); });
+  Gradient of_outside;
+  if (exact_gradient)
+    of_outside = [exact = exact_gradient](const Point<dim> &x, const double step) {
+      auto result = exact(x, step);
+      if (result)
+        *result *= -1.;
+      return result;
+    };
+  return SmoothPiece([phi = level_set](const Point<dim> &x) { return -phi(x); }, of_outside);
 }
 
 template <int dim>
@@ -89,9 +101,18 @@ SmoothPiece<dim>::moved(const Tensor<2, dim> &rotation, const Point<dim> &centre
 {
   if (is_plane())
     return SmoothPiece(centre + rotation * (point - centre) + translation, rotation * plane_normal);
-  return SmoothPiece([=, phi = level_set](const Point<dim> &x) {
-    return phi(centre + transpose(rotation) * (x - translation - centre));
-  });
+  const auto back = [=](const Point<dim> &x) {
+    return centre + transpose(rotation) * (x - translation - centre);
+  };
+  Gradient of_moved;
+  if (exact_gradient)
+    of_moved = [=, exact = exact_gradient](const Point<dim> &x, const double step) {
+      auto result = exact(back(x), step);
+      if (result)
+        result = rotation * *result;
+      return result;
+    };
+  return SmoothPiece([=, phi = level_set](const Point<dim> &x) { return phi(back(x)); }, of_moved);
 }
 
 template class SmoothPiece<2>;

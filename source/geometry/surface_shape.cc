@@ -22,6 +22,12 @@ SurfaceShape::signed_distance(const Point<3> &x) const
   return surface->signed_distance(x);
 }
 
+std::optional<Tensor<1, 3>>
+SurfaceShape::exact_gradient(const Point<3> &x, const double near) const
+{
+  return surface->gradient(x, near);
+}
+
 BoundingBox<3>
 SurfaceShape::bounding_box() const
 {

@@ -28,6 +28,10 @@ public:
   /** Negative inside. */
   double signed_distance(const dealii::Point<3> &x) const;
 
+  /** The gradient of that: the direction from the nearest point, or within `near` [L] of the
+   * surface the normal of a facet there. */
+  dealii::Tensor<1, 3> gradient(const dealii::Point<3> &x, const double near) const;
+
   const dealii::BoundingBox<3> &bounding_box() const
   {
     return box;

@@ -6,6 +6,7 @@
 #include <deal.II/base/point.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -22,6 +23,13 @@ public:
 
   /** The signed distance of `x` to the boundary, or another level set if !is_distance(). */
   virtual double signed_distance(const dealii::Point<dim> &x) const = 0;
+
+  /**
+   * The gradient of signed_distance(), if it is known without differences; within `near` [L] of the
+   * boundary, where the direction to it is round-off, the normal there. None by default.
+   */
+  virtual std::optional<dealii::Tensor<1, dim>> exact_gradient(const dealii::Point<dim> &x,
+                                                               const double near) const;
 
   /** Whether signed_distance() is a distance everywhere. */
   virtual bool is_distance() const;

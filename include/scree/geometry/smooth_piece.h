@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <functional>
+#include <optional>
 
 namespace scree
 {
@@ -17,12 +18,15 @@ class SmoothPiece
 {
 public:
   using LevelSet = std::function<double(const dealii::Point<dim> &)>;
+  /** grad phi at a point, where points nearer than a length are on the contour; may be none. */
+  using Gradient
+    = std::function<std::optional<dealii::Tensor<1, dim>>(const dealii::Point<dim> &, double)>;
 
   /** The plane through `point` with the unit `normal` out of the shape. */
   SmoothPiece(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &normal);
 
-  /** A curved piece, the level set in units of length. */
-  explicit SmoothPiece(const LevelSet &level_set);
+  /** A curved piece, the level set in units of length. @param exact_gradient of it, if known */
+  explicit SmoothPiece(const LevelSet &level_set, const Gradient &exact_gradient = {});
 
   /** The level set at `x` [L]; the distance to a plane. */
   double value(const dealii::Point<dim> &x) const;
@@ -32,7 +36,7 @@ public:
     return !level_set;
   }
 
-  /** grad phi at `x`: a plane's normal, or by central differences of width `step` [L]. */
+  /** grad phi at `x`: a plane's normal, exact, or by central differences of width `step` [L]. */
   dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &x, const double step) const;
 
   /** The unit normal at `x`, out of the shape. */
@@ -52,5 +56,6 @@ private:
   dealii::Point<dim>     point; // of a plane
   dealii::Tensor<1, dim> plane_normal;
   LevelSet               level_set; // empty: a plane
+  Gradient               exact_gradient;
 };
 } // namespace scree

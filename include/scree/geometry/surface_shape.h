@@ -17,6 +17,9 @@ public:
 
   double signed_distance(const dealii::Point<3> &x) const override;
 
+  std::optional<dealii::Tensor<1, 3>> exact_gradient(const dealii::Point<3> &x,
+                                                     const double            near) const override;
+
   dealii::BoundingBox<3> bounding_box() const override;
 
 private:
