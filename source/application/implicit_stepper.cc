@@ -17,9 +17,6 @@
 
 namespace scree
 {
-// Of Newton's method while there are other ways to go.
-constexpr unsigned int few_iterations = 60;
-
 template <int dim>
 ImplicitStepper<dim>::ImplicitStepper(const Parameters<dim> &parameters,
                                       const StepControl &step_control, Model<dim> &model,
@@ -133,9 +130,7 @@ ImplicitStepper<dim>::attempt()
   const TimeScheme<dim> &scheme = model.time_scheme();
   problem.equilibrium().set_inertia(scheme.inertia(problem.mass, model.state(), time));
   accuracy.begin_attempt();
-  auto u = first_guess<dim>(problem, scheme, model.state(), time, [&](const Vector &b, Vector &x) {
-    solve_linear_system(b, parameters.linear_solver.tolerance, x);
-  });
+  auto               u = first_guess<dim>(problem, scheme, model.state(), time, linear_solve());
   const NewtonResult result = solve_step(u);
   record.newton_iterations  = result.iterations;
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
@@ -166,8 +161,10 @@ ImplicitStepper<dim>::attempt()
   else
     require_small_rotations(problem, balances, model.state(), time);
   const Rates rates = rates_at_end(problem, scheme, model.state(), u, time);
-  if (!takes_motion(u, rates, attempt))
+  if (!is_accurate(u, rates, attempt))
     return attempt;
+  if (problem.mass)
+    take_motion(u, rates, attempt);
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.contact_reach(), problem.communicator());
   if (!model.is_moving())
@@ -184,6 +181,15 @@ ImplicitStepper<dim>::attempt()
   relaxation.finish();
   accuracy.accept();
   return attempt;
+}
+
+template <int dim>
+typename LocalError<dim>::Solve
+ImplicitStepper<dim>::linear_solve()
+{
+  return [this](const Vector &b, Vector &x) {
+    solve_linear_system(b, parameters.linear_solver.tolerance, x);
+  };
 }
 
 template <int dim>
@@ -332,11 +338,19 @@ ImplicitStepper<dim>::is_interrupted() const
 }
 
 template <int dim>
+unsigned int
+ImplicitStepper<dim>::patience(const bool is_patient) const
+{
+  constexpr unsigned int few = 60;
+  return is_patient ? parameters.newton.patience : few;
+}
+
+template <int dim>
 Newton
-ImplicitStepper<dim>::newton(const std::optional<unsigned int> patience, const double left)
+ImplicitStepper<dim>::newton(const unsigned int patience, const double left)
 {
   NewtonParameters of_attempt = parameters.newton;
-  of_attempt.patience         = patience.value_or(of_attempt.patience);
+  of_attempt.patience         = patience;
   of_attempt.absolute_tolerance += left;
   return Newton(of_attempt, hooks());
 }
@@ -349,7 +363,7 @@ ImplicitStepper<dim>::solve(Vector &u, const bool is_patient)
   model.problem().equilibrium().set_inertia({});
   model.problem().contact().laws().set_touching_holds(true);
   pressed = most_pressed = 0.;
-  return solve_enforced(newton(is_patient ? std::nullopt : std::optional(few_iterations)), u);
+  return solve_enforced(newton(patience(is_patient)), u);
 }
 
 template <int dim>
@@ -395,7 +409,7 @@ ImplicitStepper<dim>::solve_step(Vector &u)
   pressed = most_pressed = 0.;
   const Vector start(u);
   const bool   is_patient = !relaxation.may_help() || relaxation.is_pending() || has_turned;
-  const Newton newton     = this->newton(is_patient ? std::nullopt : std::optional(few_iterations));
+  const Newton newton     = this->newton(patience(is_patient));
   NewtonResult result     = solve_enforced(newton, u);
   // Friction may hold what sticks at first.
   if (has_lost_contact(result) && model.problem().contact().laws().have_friction())

@@ -1,35 +1,28 @@
 #include <scree/application/implicit_stepper.h>
 #include <scree/mechanics/step_criteria.h>
 
-#include <cmath>
+#include <algorithm>
+#include <tuple>
 
 // What comes of the motion of a step: its accuracy, material points, momenta.
 namespace scree
 {
 template <int dim>
 bool
-ImplicitStepper<dim>::takes_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt)
+ImplicitStepper<dim>::is_accurate(const Vector &u, const Rates &rates, Attempt<dim> &attempt)
 {
-  const auto solve = [&](const Vector &b, Vector &x) {
-    solve_linear_system(b, parameters.linear_solver.tolerance, x);
-  };
   try
     {
-      if (!accuracy.test(u, rates, solve, attempt))
-        {
-          attempt.outcome = Attempt<dim>::Outcome::inaccurate;
-          return false;
-        }
+      if (accuracy.test(u, rates, linear_solve(), attempt))
+        return true;
+      attempt.outcome = Attempt<dim>::Outcome::inaccurate;
     }
   catch (const LinearSolverFailure &failure)
     {
       run_log.log.line("Step " + std::to_string(record.step) + " to time "
                        + short_number(record.time) + " has no error estimate: " + failure.what());
-      return false;
     }
-  if (model.problem().mass)
-    take_motion(u, rates, attempt);
-  return true;
+  return false;
 }
 
 template <int dim>
@@ -112,13 +105,13 @@ ImplicitStepper<dim>::move_points(const Vector &u) const
   return {std::move(moved), std::move(reason)};
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                       \
-  template bool   ImplicitStepper<dim>::takes_motion(const Vector &, const Rates &, Attempt<dim> &); \
-  template bool   ImplicitStepper<dim>::take_points(const Vector &, Attempt<dim> &);                 \
-  template double ImplicitStepper<dim>::largest_free_motion(const Vector &) const;                   \
-  template void   ImplicitStepper<dim>::take_motion(const Vector &, const Rates &, Attempt<dim> &)   \
-    const;                                                                                           \
-  template std::pair<MaterialPoints<dim>, std::string> ImplicitStepper<dim>::move_points(            \
+#define SCREE_INSTANTIATE(dim)                                                                      \
+  template bool   ImplicitStepper<dim>::is_accurate(const Vector &, const Rates &, Attempt<dim> &); \
+  template bool   ImplicitStepper<dim>::take_points(const Vector &, Attempt<dim> &);                \
+  template double ImplicitStepper<dim>::largest_free_motion(const Vector &) const;                  \
+  template void   ImplicitStepper<dim>::take_motion(const Vector &, const Rates &, Attempt<dim> &)  \
+    const;                                                                                          \
+  template std::pair<MaterialPoints<dim>, std::string> ImplicitStepper<dim>::move_points(           \
     const Vector &) const;
 
 SCREE_INSTANTIATE(2)

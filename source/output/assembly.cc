@@ -1,9 +1,7 @@
 #include <scree/output/assembly.h>
 #include <scree/output/column_names.h>
 
-#include <array>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 namespace scree

@@ -140,20 +140,22 @@ StepControl::reject()
   Assert(!finished(), dealii::ExcMessage("The end time is reached."));
   ++rejected;
   easy_in_a_row = 0;
-  if (is_smallest())
-    return false;
-  length  = std::max(step_ticks() / 2, smallest_ticks);
-  longest = 0;
-  return true;
+  return make_shorter(step_ticks() / 2);
 }
 
 bool
 StepControl::reject(const StepError &error)
 {
   ++rejected;
+  return make_shorter(scaled(step_ticks(), StepSizeController::reject(error)));
+}
+
+bool
+StepControl::make_shorter(const std::int64_t ticks)
+{
   if (is_smallest())
     return false;
-  length  = scaled(step_ticks(), StepSizeController::reject(error));
+  length  = std::max(ticks, smallest_ticks);
   longest = 0;
   return true;
 }
@@ -162,12 +164,8 @@ bool
 StepControl::shorten(const double size)
 {
   while (step_size() > size)
-    {
-      if (is_smallest())
-        return false;
-      length  = std::max(step_ticks() / 2, smallest_ticks);
-      longest = 0;
-    }
+    if (!make_shorter(step_ticks() / 2))
+      return false;
   return true;
 }
 

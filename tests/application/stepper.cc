@@ -86,6 +86,29 @@ subsection Moving geometry
          + "end\n";
 }
 
+const std::string rubber_and_steel = R"(
+subsection Materials
+  set Names = rubber, steel
+  subsection rubber
+    set Young's modulus = 100
+    set Poisson's ratio = 0.3
+  end
+  subsection steel
+    set Law = rigid
+  end
+end
+)";
+
+/** A rigid wall that moves. */
+std::string
+wall(const std::string &name, const std::string &point, const std::string &normal,
+     const std::string &motion)
+{
+  return "subsection " + name + "\nset Material = steel\nsubsection Shape\nset Type = half space\n"
+         + "set Point = " + point + "\nset Normal = " + normal + "\nend\nsubsection Motion\nset "
+         + "Displacement " + motion + "\nend\nend\n";
+}
+
 /** A loose disc that a rigid wall pushes by `cells` finest cells in a step. */
 std::string
 pushed_disc(const double cells)
@@ -97,17 +120,8 @@ subsection Grid
   set Cells = 4, 2
   set Finest level = 3
 end
-subsection Materials
-  set Names = rubber, steel
-  subsection rubber
-    set Young's modulus = 100
-    set Poisson's ratio = 0.3
-  end
-  subsection steel
-    set Law = rigid
-  end
-end
-subsection Bodies
+)" + rubber_and_steel
+         + R"(subsection Bodies
   set Names = disc, wall
   subsection disc
     set Material = rubber
@@ -117,19 +131,8 @@ subsection Bodies
       set Radius = 0.5
     end
   end
-  subsection wall
-    set Material = steel
-    subsection Shape
-      set Type = half space
-      set Point = 0.5, 0
-      set Normal = 1, 0
-    end
-    subsection Motion
-      set Displacement x = )"
-         + std::to_string(cells / 8.) + R"(*t
-    end
-  end
-end
+)" + wall("wall", "0.5, 0", "1, 0", "x = " + std::to_string(cells / 8.) + "*t")
+         + R"(end
 subsection Moving geometry
   set Update = every step
 end
@@ -141,13 +144,6 @@ end
 std::string
 packing(const std::string &more = "")
 {
-  const auto wall = [](const std::string &name, const std::string &point, const std::string &normal,
-                       const std::string &motion) {
-    return "subsection " + name
-           + "\nset Material = steel\nsubsection Shape\nset Type = half space\n"
-           + "set Point = " + point + "\nset Normal = " + normal + "\nend\nsubsection Motion\nset "
-           + "Displacement " + motion + "\nend\nend\n";
-  };
   return R"(
 subsection Grid
   set Lower corner = -2, -2
@@ -155,17 +151,8 @@ subsection Grid
   set Cells = 4, 4
   set Finest level = 2
 end
-subsection Materials
-  set Names = rubber, steel
-  subsection rubber
-    set Young's modulus = 100
-    set Poisson's ratio = 0.3
-  end
-  subsection steel
-    set Law = rigid
-  end
-end
-subsection Bodies
+)" + rubber_and_steel
+         + R"(subsection Bodies
   set Names = disc, left, right, bottom, top
   subsection disc
     set Material = rubber

@@ -8,7 +8,6 @@
 #include <scree/mechanics/time_scheme.h>
 #include <scree/solver/newton.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -55,19 +54,18 @@ public:
   double largest_free_motion(const Vector &u) const;
 
 private:
-  /** take_motion() if there is mass; false, with the outcome, if StepAccuracy::test() fails. */
-  bool takes_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt);
+  /** Whether StepAccuracy::test() holds; if not, with the outcome. */
+  bool is_accurate(const Vector &u, const Rates &rates, Attempt<dim> &attempt);
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
   /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
   void take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
   /** The material points after the step; false, with the outcome, if they moved too far. */
   bool take_points(const Vector &u, Attempt<dim> &attempt);
-  /**
-   * @param patience as of NewtonParameters; none: as there
-   * @param left what of the residual may be left, beyond the tolerances [force]
-   */
-  Newton       newton(const std::optional<unsigned int> patience, const double left = 0.);
+  /** NewtonParameters::patience: of the input, or 60 while there are other ways to go. */
+  unsigned int patience(const bool is_patient) const;
+  /** @param left what of the residual may be left, beyond the tolerances [force] */
+  Newton       newton(const unsigned int patience, const double left = 0.);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
@@ -81,11 +79,13 @@ private:
   {
     return result.converged() && pressed < negligible_pressure();
   }
-  NewtonResult      solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
-                                        const NewtonResult &result);
-  Newton::Hooks     hooks();
-  void              set_hooks_of_lagging(Newton::Hooks &hooks);
-  void              observe(const NewtonIteration &iteration);
+  NewtonResult  solve_with_sticking(const Newton &newton, const Vector &start, Vector &u,
+                                    const NewtonResult &result);
+  Newton::Hooks hooks();
+  void          set_hooks_of_lagging(Newton::Hooks &hooks);
+  void          observe(const NewtonIteration &iteration);
+  /** Solves K x = b to the tolerance of the linear solver; may throw LinearSolverFailure. */
+  typename LocalError<dim>::Solve linear_solve();
   LinearSolveResult solve_linear_system(const Vector &r, const double tolerance, Vector &du);
   /** Solves again while `du` moves bodies far that nothing holds, see BodyHolds. */
   void hold_bodies(const Vector &r, const double tolerance, Vector &du);

@@ -69,7 +69,7 @@ public:
   /** Simplices of positive volume that fill it: dim + 1 vertices each. */
   std::vector<std::vector<dealii::Point<dim>>> simplices() const;
 
-  /** Of the unit cell's. */
+  /** 1 of the unit cell. */
   double volume() const;
 
   std::vector<Facet<dim>> facets;

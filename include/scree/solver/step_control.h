@@ -178,6 +178,9 @@ private:
     return parameters.is_by_error() && tick >= parameters.static_steps * ticks_per_step;
   }
 
+  /** Makes steps so many ticks long; false: the present one is as small as allowed already. */
+  bool make_shorter(const std::int64_t ticks);
+
   /** The longest step by error, in ticks. */
   std::int64_t largest_ticks() const;
 
