@@ -98,6 +98,7 @@ DiscreteProblem<dim>::DiscreteProblem(const BackgroundGrid<dim>      &grid,
                                         [&]() {
                                           return std::make_shared<const Mass<dim>>(
                                             space, bodies, *small_cuts, kinematics->mass_points(),
+                                            is_moving() ? Mass<dim>::moving_jump_share : 1.,
                                             parameters.lumps_mass);
                                         }))
     , boundary_terms(timed(timings, is_moving() ? "history at quadrature points" : "quadrature",

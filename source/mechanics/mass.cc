@@ -54,14 +54,14 @@ lump(Matrix &matrix, const dealii::IndexSet &owned, const MPI_Comm communicator)
 template <int dim>
 Mass<dim>::Mass(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
                 const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> points,
-                const bool is_lumped)
+                const double jump_share, const bool is_lumped)
     : space(space)
     , bodies(bodies)
     , mass_points(std::move(points))
     , rigid_masses(space, bodies)
 {
   require_densities();
-  set_up_matrix(small_cuts, is_lumped);
+  set_up_matrix(small_cuts, jump_share, is_lumped);
 }
 
 template <int dim>
@@ -76,7 +76,8 @@ Mass<dim>::require_densities() const
 
 template <int dim>
 void
-Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is_lumped)
+Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const double jump_share,
+                         const bool is_lumped)
 {
   const MPI_Comm                     communicator = space.grid.communicator();
   std::vector<std::vector<DofIndex>> couplings    = small_cuts.couplings();
@@ -95,7 +96,7 @@ Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is
   matrix->reinit(space.owned(), space.owned(), pattern, communicator, true);
   add_points(*matrix);
   if (!is_lumped)
-    add_jumps(small_cuts, *matrix);
+    add_jumps(small_cuts, jump_share, *matrix);
   matrix->compress(dealii::VectorOperation::add);
   if (is_lumped)
     lump(*matrix, space.owned(), communicator);
@@ -104,14 +105,15 @@ Mass<dim>::set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is
 
 template <int dim>
 void
-Mass<dim>::add_jumps(const SmallCutTreatment<dim> &small_cuts, Matrix &matrix) const
+Mass<dim>::add_jumps(const SmallCutTreatment<dim> &small_cuts, const double jump_share,
+                     Matrix &matrix) const
 {
-  // gamma rho h^2 instead of gamma E: h of the cells by the ratios.
+  // gamma_m rho h^2 instead of gamma E: h of the cells by the ratios.
   CutStiffness stiffness;
   for (const auto &body : bodies)
     stiffness.of_bodies.push_back(body.is_rigid() ? 0. : body.density);
   for (unsigned int a = 0; a < space.cells().size(); ++a)
-    stiffness.ratios.push_back(std::pow(space.cell_size(a), 2));
+    stiffness.ratios.push_back(jump_share * std::pow(space.cell_size(a), 2));
   small_cuts.add_to_matrix(stiffness, matrix);
 }
 

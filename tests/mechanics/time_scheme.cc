@@ -258,6 +258,35 @@ TEST(Inertia, FitsKeepMomentum)
   EXPECT_NEAR(body.momentum().angular[2], angular, 1e-12);
 }
 
+// The jumps weigh in proportion to their share, and nothing in the motion of a rigid body.
+TEST(Inertia, ShareOfJumps)
+{
+  const FreeBody<2> body(ball_text("0.02, 0.01", 0.63));
+  const auto       &model = body.model;
+  const auto       &space = *model.cut.space;
+  auto              rough = body.model.state.displacement, rigid = rough, weighted = rough;
+  for (unsigned int a = 0; a < space.cells().size(); ++a)
+    for (unsigned int i = 0; i < space.basis.n_nodes; ++i)
+      {
+        const auto     x    = space.position(a, space.basis.node(i));
+        const DofIndex node = space.nodes(a)[i];
+        rough(node)         = std::sin(7. * x[0] + 3. * x[1]);
+        rigid(node)         = 0.3 - 0.2 * x[1];
+        rigid(node + 1)     = 0.1 + 0.2 * x[0];
+      }
+  const auto norm_square = [&](const double share, const auto &v) {
+    const Mass<2> mass(space, model.cut.bodies, *model.small_cuts, model.kinematics.mass_points(),
+                       share);
+    mass.matrix()->vmult(weighted, v);
+    return weighted * v;
+  };
+  const double of_points = norm_square(0., rough), whole = norm_square(1., rough);
+  EXPECT_GT(whole, 1.01 * of_points);
+  EXPECT_NEAR(norm_square(0.1, rough), of_points + 0.1 * (whole - of_points), 1e-12 * whole);
+  const double exact = norm_square(0., rigid);
+  EXPECT_NEAR(norm_square(1., rigid), exact, 1e-12 * exact);
+}
+
 // Lumping keeps the mass, and the momenta of nodes are those of the points.
 TEST(Inertia, LumpedMass)
 {
@@ -265,7 +294,7 @@ TEST(Inertia, LumpedMass)
   const auto       &model = body.model;
   const auto       &space = *model.cut.space;
   const Mass<2> lumped(space, model.cut.bodies, *model.small_cuts, model.kinematics.mass_points(),
-                       true);
+                       1., true);
   const auto   &points = lumped.points();
   Mass<2>::Vectors values;
   double           mass = 0., angular = 0.;

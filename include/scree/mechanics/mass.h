@@ -14,7 +14,7 @@ namespace scree
 /**
  * The mass of all bodies and what moves with it. That of deformable bodies lies at points,
  *
- *     M = sum_p m_p N(x_p) N(x_p)^T + gamma rho h^2 s_h,
+ *     M = sum_p m_p N(x_p) N(x_p)^T + gamma_m rho h^2 s_h,
  *
  * with the jumps s_h of the treatment of small cuts, so that M is well conditioned however cells
  * are cut. Linear fields have no jumps: what is fitted to the points keeps their linear and angular
@@ -32,11 +32,19 @@ public:
   using Matrix  = dealii::TrilinosWrappers::SparseMatrix;
   using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-  /** Consistent or lumped. @throws UserError if a deformable or a free rigid body has no density
-   * (collective) */
+  /** gamma_m/gamma on a moving geometry, where the kinetic energy of jumps is lost as cuts move
+   * (theory.md, section 12). */
+  static constexpr double moving_jump_share = 0.1;
+
+  /**
+   * Consistent or lumped.
+   *
+   * @param jump_share gamma_m/gamma
+   * @throws UserError if a deformable or a free rigid body has no density (collective)
+   */
   Mass(const DisplacementSpace<dim> &space, const std::vector<Body<dim>> &bodies,
        const SmallCutTreatment<dim> &small_cuts, MassPoints<dim> mass_points,
-       const bool is_lumped = false);
+       const double jump_share = 1., const bool is_lumped = false);
 
   const MassPoints<dim> &points() const
   {
@@ -114,9 +122,11 @@ public:
   RigidPose<dim> pose(const typename RigidMasses<dim>::OfBody &body, const Vector &ghosted) const;
 
 private:
-  void set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const bool is_lumped);
+  void set_up_matrix(const SmallCutTreatment<dim> &small_cuts, const double jump_share,
+                     const bool is_lumped);
   /** The jumps of small cuts. */
-  void add_jumps(const SmallCutTreatment<dim> &small_cuts, Matrix &matrix) const;
+  void add_jumps(const SmallCutTreatment<dim> &small_cuts, const double jump_share,
+                 Matrix &matrix) const;
   void add_points(Matrix &matrix) const;
   void require_densities() const;
 
