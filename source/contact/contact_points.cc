@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace scree
 {
@@ -35,13 +34,11 @@ ContactPoints<dim>::ContactPoints(const std::vector<Body<dim>>   &bodies,
                                   ContactDiscretisation<dim>    &&discretisation)
     : discretisation(std::move(discretisation))
     , contact_laws(pairs)
-    , all_points(points().size())
     , contact_responses(points().size())
 {
   for (const ContactPair &pair : pairs)
     pair_modulus.push_back(modulus_of(pair, bodies[pair.a], bodies[pair.b]));
   contact_enforcement = std::make_unique<Penalty<dim>>(penalties());
-  std::iota(all_points.begin(), all_points.end(), 0u);
   evaluated.jumps.resize(points().size());
   evaluated.means.resize(points().size());
 }
@@ -101,11 +98,19 @@ void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
   evaluated         = discretisation.jump_operator.evaluate(u);
-  contact_responses = responses_to(all_points, evaluated.jumps, history);
-  std::vector<dealii::Tensor<1, dim>> forces;
-  forces.reserve(points().size());
-  for (unsigned int p = 0; p < points().size(); ++p)
-    forces.push_back(points()[p].weight * contact_responses[p].traction(points()[p].normal));
+  const auto acting = contact_laws.acting(points(), evaluated.jumps, *contact_enforcement);
+  std::vector<dealii::Tensor<1, dim>> jumps;
+  for (const unsigned int i : acting)
+    jumps.push_back(evaluated.jumps[i]);
+  const auto responses = responses_to(acting, jumps, history);
+  contact_responses.assign(points().size(), ContactResponse<dim>());
+  std::vector<dealii::Tensor<1, dim>> forces(points().size());
+  for (unsigned int j = 0; j < acting.size(); ++j)
+    {
+      const ContactPoint<dim> &point = points()[acting[j]];
+      contact_responses[acting[j]]   = responses[j];
+      forces[acting[j]]              = point.weight * responses[j].traction(point.normal);
+    }
   contact_forces = jump_operator().forces(std::move(forces));
 }
 

@@ -67,6 +67,25 @@ JumpOperator<dim>::append(const ContactPoint<dim> &point, const NodeWeights &nod
 }
 
 template <int dim>
+void
+JumpOperator<dim>::find_places(const Vector &u)
+{
+  const Epetra_BlockMap &map = u.trilinos_vector().Map();
+  if (map_of_places && map_of_places->DataPtr() == map.DataPtr()
+      && places.size() == group_nodes.size() * dim)
+    return;
+  map_of_places = map;
+  places.clear();
+  places.reserve(group_nodes.size() * dim);
+  for (const DofIndex node : group_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        places.push_back(map.LID(static_cast<int>(node + d)));
+        Assert(places.back() >= 0, dealii::ExcMessage("A contact stencil is not in the vector."));
+      }
+}
+
+template <int dim>
 ContactJumps<dim>
 JumpOperator<dim>::evaluate(const Vector &u)
 {
@@ -81,12 +100,13 @@ JumpOperator<dim>::evaluate(const Vector &u)
   result.jumps.resize(pair_of_point.size());
   result.means.resize(pair_of_point.size());
   std::vector<double> nodal;
+  find_places(u);
+  const double *values = u.trilinos_vector()[0];
   for (const Group &group : groups)
     {
       nodal.resize(group.n_nodes * dim);
-      for (unsigned int i = 0; i < group.n_nodes; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          nodal[i * dim + d] = u(group_nodes[group.first_node + i] + d);
+      for (unsigned int i = 0; i < group.n_nodes * dim; ++i)
+        nodal[i] = values[places[group.first_node * dim + i]];
       const double *weight = stencil_weights.data() + group.first_weight;
       const double *sides  = group_sides.data() + group.first_node;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
@@ -121,10 +141,11 @@ JumpOperator<dim>::forces(std::vector<dealii::Tensor<1, dim>> &&of_points) const
   ContactForces<dim> result{std::move(of_points), {}};
   result.of_rigid.resize(rigid_partners.size());
   for (unsigned int p = 0; p < rigid_feet.size(); ++p)
-    for (const RigidSide &side : rigid_sides[pair_of_point[p]])
-      result.of_rigid[side.partner].add(rigid_feet[p][side.number()].X
-                                          - rigid_partners[side.partner].rigid->reference_point,
-                                        side.sign * result.of_points[p]);
+    if (result.of_points[p] != dealii::Tensor<1, dim>())
+      for (const RigidSide &side : rigid_sides[pair_of_point[p]])
+        result.of_rigid[side.partner].add(rigid_feet[p][side.number()].X
+                                            - rigid_partners[side.partner].rigid->reference_point,
+                                          side.sign * result.of_points[p]);
   return result;
 }
 
@@ -157,6 +178,10 @@ JumpOperator<dim>::add_forces(const ContactForces<dim> &forces, Vector &residual
   std::vector<double> block;
   for (const Group &group : groups)
     {
+      const auto *force = forces.of_points.data() + group.first_point;
+      if (std::all_of(force, force + group.n_points,
+                      [](const auto &f) { return f == dealii::Tensor<1, dim>(); }))
+        continue;
       block.assign(group.n_nodes * dim, 0.);
       const double *weight = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
@@ -213,17 +238,19 @@ JumpOperator<dim>::add_stiffness(const std::vector<dealii::Tensor<2, dim>> &D, M
   dealii::FullMatrix<double> block;
   for (const Group &group : groups)
     {
+      const auto *of_group = D.data() + group.first_point;
+      if (std::all_of(of_group, of_group + group.n_points,
+                      [](const auto &D_p) { return D_p.norm_square() == 0.; }))
+        continue;
       const std::vector<DofIndex> indices = unknowns(group);
       block.reinit(indices.size(), indices.size());
-      bool          is_stiff = false;
-      const double *weight   = stencil_weights.data() + group.first_weight;
+      const double *weight = stencil_weights.data() + group.first_weight;
       for (unsigned int p = group.first_point; p < group.first_point + group.n_points;
            ++p, weight += group.n_nodes)
         {
           const dealii::Tensor<2, dim> &D_p = D[p];
           if (D_p.norm_square() == 0.)
             continue;
-          is_stiff = true;
           for (unsigned int i = 0; i < group.n_nodes; ++i)
             for (unsigned int j = 0; j < group.n_nodes; ++j)
               for (unsigned int d = 0; d < dim; ++d)
@@ -232,8 +259,7 @@ JumpOperator<dim>::add_stiffness(const std::vector<dealii::Tensor<2, dim>> &D, M
           if (indices.size() > group.n_nodes * dim)
             add_rigid_couplings(group, p, weight, D_p, block);
         }
-      if (is_stiff)
-        matrix.add(indices, block);
+      matrix.add(indices, block);
     }
 }
 

@@ -52,6 +52,11 @@ public:
     return std::vector<dealii::Tensor<1, dim>>(tau.size());
   }
 
+  bool may_press_apart(const unsigned int point) const override
+  {
+    return points[point].has_multiplier;
+  }
+
   void start_step(const ContactHistory<dim> &history) override;
 
   bool update(const std::vector<ContactResponse<dim>> &responses) override;

@@ -3,6 +3,7 @@
 #include <scree/contact/contact_history.h>
 #include <scree/contact/contact_response.h>
 #include <scree/contact/contact_surface.h>
+#include <scree/contact/enforcement.h>
 
 #include <vector>
 
@@ -64,6 +65,16 @@ public:
                                           const std::vector<dealii::Tensor<1, dim>> &jumps,
                                           const ContactHistory<dim>                 &history) const;
 
+  /**
+   * The numbers of the points that may not be open, in ascending order; g > 1e-6 h without a
+   * multiplier, under a law with b(0) = 0, is open.
+   *
+   * @param jumps of all points
+   */
+  std::vector<unsigned int> acting(const std::vector<ContactPoint<dim>>      &points,
+                                   const std::vector<dealii::Tensor<1, dim>> &jumps,
+                                   const Enforcement<dim>                    &enforcement) const;
+
   /** What the laws make of trial tractions. */
   std::vector<ContactResponse<dim>> respond(const std::vector<ContactPoint<dim>>  &points,
                                             const std::vector<unsigned int>       &numbers,
@@ -73,6 +84,8 @@ public:
 private:
   /** The law that acts between a pair now. */
   const ContactLaw &acting_law(const unsigned int pair) const;
+  /** Whether b(0) > 0. */
+  bool has_bound_without_pressure(const unsigned int pair) const;
 
   std::vector<ContactPair> of_pairs;
   std::vector<double>      pair_allowances; //!< while overlap is resolved

@@ -148,7 +148,6 @@ private:
   ContactLaws<dim>                    contact_laws;
   std::vector<double>                 pair_modulus; //!< E = 2/(1/E_a + 1/E_b)
   std::unique_ptr<Enforcement<dim>>   contact_enforcement;
-  std::vector<unsigned int>           all_points; //!< their numbers
   ContactJumps<dim>                   evaluated;
   std::vector<ContactResponse<dim>>   contact_responses;
   ContactForces<dim>                  contact_forces;

@@ -53,6 +53,12 @@ public:
   elastic_slides(const std::vector<dealii::Tensor<1, dim>> &old_tau,
                  const std::vector<dealii::Tensor<1, dim>> &tau) const = 0;
 
+  /** Whether an open point, g > 0, may press. */
+  virtual bool may_press_apart(const unsigned int) const
+  {
+    return false;
+  }
+
   /** A step begins, or begins again, from `history` (collective). */
   virtual void start_step(const ContactHistory<dim> &history) = 0;
 

@@ -7,9 +7,11 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <Epetra_BlockMap.h>
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace scree
@@ -114,6 +116,8 @@ private:
     }
   };
 
+  /** Finds the local places of the nodes' unknowns in vectors like u. */
+  void find_places(const Vector &u);
   /** The nodes' unknowns of a group, then the free components of its rigid sides. */
   std::vector<DofIndex> unknowns(const Group &group) const;
   void add_rigid_couplings(const Group &group, const unsigned int point, const double *weight,
@@ -129,5 +133,7 @@ private:
   std::vector<DofIndex>                 group_nodes;
   std::vector<double>                   group_sides;     //!< of each node
   std::vector<double>                   stencil_weights; //!< per point, the nodes of its group
+  std::optional<Epetra_BlockMap>        map_of_places;   //!< of the vectors that they are for
+  std::vector<int>                      places;          //!< of the unknowns of group_nodes
 };
 } // namespace scree
