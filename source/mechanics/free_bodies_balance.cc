@@ -37,8 +37,9 @@ struct FreeBodies<dim>::Balance
   struct Range
   {
     unsigned int pair, begin, end;
-    std::size_t  first_column;
-    Coordinates  fastest; //!< motion of any point along its normal, by coordinates
+    Coordinates  fastest; //!< bounds on the motion of any point, by coordinates
+    /** Of the first points, by coordinates: as many as have been near. */
+    std::vector<dealii::Tensor<1, dim>> columns = {};
   };
 
   Balance(const FreeBodies &free, const Coordinates &loads, const ContactHistory<dim> &history,
@@ -49,8 +50,15 @@ struct FreeBodies<dim>::Balance
   /** Sorts the points of each pair by their gaps, closed ones first. */
   void find_points();
 
-  /** Adds the columns of a point, unless it stays open; and the largest ones along normals. */
-  bool add_columns(const unsigned int i, const double gap, Coordinates &fastest);
+  /** Where a point lies on one of its bodies, -1: a, 1: b. */
+  dealii::Point<dim> place(const unsigned int i, const double sign) const;
+
+  /** Bounds on what the coordinates of a pair do to its points [begin, end) of contact. */
+  Coordinates largest_motions(const unsigned int pair, const unsigned int begin,
+                              const unsigned int end) const;
+
+  /** Adds the columns of a point. */
+  void add_columns(const unsigned int i, std::vector<dealii::Tensor<1, dim>> &columns) const;
 
   /** The points that may be closed after a motion q, in 3D one of a hundred, and their jumps. */
   void find_near(const Coordinates &q);
@@ -83,7 +91,6 @@ struct FreeBodies<dim>::Balance
   std::vector<Range>                          ranges;
   std::vector<unsigned int>                   points;       // of contact, with a free body
   std::vector<double>                         gaps;         // of these points at the start, if open
-  std::vector<dealii::Tensor<1, dim>>         columns;      // of these points, by coordinates
   std::vector<unsigned int>                   near;         // what may be closed now
   std::vector<const dealii::Tensor<1, dim> *> near_columns; // of what is near
   std::vector<dealii::Tensor<1, dim>>         jumps;        // of what is near
@@ -139,10 +146,15 @@ FreeBodies<dim>::Balance::find_points()
       if (free.coordinates_of_pair[pair].empty())
         continue;
       std::sort(of_pair.begin(), of_pair.end());
-      Range range{pair, static_cast<unsigned int>(points.size()), 0, columns.size(),
-                  Coordinates(free.coordinates_of_pair[pair].size(), 0.)};
+      const auto begin = static_cast<unsigned int>(points.size());
+      Range      range{pair, begin, begin, largest_motions(pair, i, end)};
+      // What stays open in all motions that balancing() allows is left out.
+      double approach = std::numeric_limits<double>::max();
+      if (free.turns_finitely)
+        approach = 1.01 * free.longest_motion()
+                   * std::accumulate(range.fastest.begin(), range.fastest.end(), 0.);
       for (const auto &[gap, number] : of_pair)
-        if (add_columns(number, gap, range.fastest))
+        if (gap <= approach)
           {
             points.push_back(number);
             gaps.push_back(gap);
@@ -153,33 +165,56 @@ FreeBodies<dim>::Balance::find_points()
 }
 
 template <int dim>
-bool
-FreeBodies<dim>::Balance::add_columns(const unsigned int i, const double gap, Coordinates &fastest)
+dealii::Point<dim>
+FreeBodies<dim>::Balance::place(const unsigned int i, const double sign) const
 {
-  const ContactPoint<dim> &point    = free.contact.points()[i];
-  const ContactPair       &pair     = free.contact.pairs()[point.pair];
-  const std::size_t        n_before = columns.size();
-  for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
+  dealii::Point<dim> x = free.contact.points()[i].feet[sign < 0. ? 0 : 1];
+  if (free.turns_finitely)
+    x += free.contact.mean_displacements()[i] + 0.5 * sign * free.contact.jumps()[i];
+  return x;
+}
+
+template <int dim>
+typename FreeBodies<dim>::Coordinates
+FreeBodies<dim>::Balance::largest_motions(const unsigned int pair, const unsigned int begin,
+                                          const unsigned int end) const
+{
+  const ContactPair &bodies = free.contact.pairs()[pair];
+  Coordinates        result;
+  for (const auto &[body, sign] : {std::make_pair(bodies.a, -1.), std::make_pair(bodies.b, 1.)})
     if (const unsigned int number = free.number_of[body]; number != none)
       {
-        dealii::Point<dim> x = point.feet[sign < 0. ? 0 : 1];
-        if (free.turns_finitely)
-          x += free.contact.mean_displacements()[i] + 0.5 * sign * free.contact.jumps()[i];
+        std::pair<dealii::Point<dim>, dealii::Point<dim>> corners(place(begin, sign),
+                                                                  place(begin, sign));
+        for (unsigned int i = begin; i < end; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double x    = place(i, sign)[d];
+              corners.first[d]  = std::min(corners.first[d], x);
+              corners.second[d] = std::max(corners.second[d], x);
+            }
+        // The length of a motion, linear in x, is largest at a corner of their box.
+        const dealii::BoundingBox<dim> box(corners);
         for (unsigned int k = 0; k < free.bases[number].n(); ++k)
-          columns.push_back(sign * free.motion(number, k, x));
+          {
+            result.push_back(0.);
+            for (unsigned int v = 0; v < 1u << dim; ++v)
+              result.back() = std::max(result.back(), free.motion(number, k, box.vertex(v)).norm());
+          }
       }
-  // What stays open in all motions that balancing() allows is left out.
-  double approach = 0.;
-  for (std::size_t k = n_before; k < columns.size(); ++k)
-    approach += free.longest_motion() * std::abs(columns[k] * point.normal);
-  if (free.turns_finitely && gap > 1.01 * approach)
-    {
-      columns.resize(n_before);
-      return false;
-    }
-  for (std::size_t k = n_before; k < columns.size(); ++k)
-    fastest[k - n_before] = std::max(fastest[k - n_before], std::abs(columns[k] * point.normal));
-  return true;
+  return result;
+}
+
+template <int dim>
+void
+FreeBodies<dim>::Balance::add_columns(const unsigned int                   i,
+                                      std::vector<dealii::Tensor<1, dim>> &columns) const
+{
+  const ContactPair &pair = free.contact.pairs()[free.contact.points()[i].pair];
+  for (const auto &[body, sign] : {std::make_pair(pair.a, -1.), std::make_pair(pair.b, 1.)})
+    if (const unsigned int number = free.number_of[body]; number != none)
+      for (unsigned int k = 0; k < free.bases[number].n(); ++k)
+        columns.push_back(sign * free.motion(number, k, place(i, sign)));
 }
 
 template <int dim>
@@ -189,14 +224,19 @@ FreeBodies<dim>::Balance::find_near(const Coordinates &q)
   near.clear();
   near_columns.clear();
   jumps.clear();
-  for (const Range &range : ranges)
+  for (Range &range : ranges)
     {
       const auto &coordinates = free.coordinates_of_pair[range.pair];
       double      approach    = surely_open * free.cell_size;
       for (unsigned int k = 0; k < coordinates.size(); ++k)
         approach += std::abs(q[coordinates[k]]) * range.fastest[k];
-      const auto *column = columns.data() + range.first_column;
-      for (unsigned int j = range.begin; j < range.end && gaps[j] <= approach; ++j)
+      const auto end_of_near
+        = std::upper_bound(gaps.begin() + range.begin, gaps.begin() + range.end, approach);
+      const unsigned int end = end_of_near - gaps.begin();
+      for (unsigned int j = range.begin + range.columns.size() / coordinates.size(); j < end; ++j)
+        add_columns(points[j], range.columns);
+      const auto *column = range.columns.data();
+      for (unsigned int j = range.begin; j < end; ++j)
         {
           near.push_back(points[j]);
           near_columns.push_back(column);
