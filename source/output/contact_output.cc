@@ -3,14 +3,15 @@
 #include <scree/output/contact_output.h>
 #include <scree/output/patch_output.h>
 #include <scree/output/vtu_files.h>
+#include <scree/state/gather.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <map>
 #include <utility>
@@ -72,28 +73,40 @@ private:
 };
 
 template <int dim>
-std::vector<double>
+ContactRow<dim>
 columns(const ContactPoints<dim> &contact, const CellMeans<dim> &means, const unsigned int i)
 {
-  const auto         &point    = contact.points()[i];
-  const auto         &response = contact.responses()[i];
-  std::vector<double> values   = {double(point.pair)};
-  const auto          append   = [&](const dealii::Tensor<1, dim> &vector) {
-    for (unsigned int d = 0; d < dim; ++d)
-      values.push_back(vector[d]);
+  const auto     &point    = contact.points()[i];
+  const auto     &response = contact.responses()[i];
+  ContactRow<dim> values;
+  auto            next   = values.begin();
+  const auto      append = [&](const dealii::Tensor<1, dim> &vector) {
+    next = std::copy(vector.begin_raw(), vector.end_raw(), next);
   };
+  *next++ = point.pair;
   append(point.position);
   append(point.normal);
-  values.push_back(point.weight);
-  values.push_back(contact.gap(i));
-  values.push_back(response.pressure);
+  *next++ = point.weight;
+  *next++ = contact.gap(i);
+  *next++ = response.pressure;
   append(response.tau);
   append(contact.jumps()[i]);
-  values.push_back(static_cast<unsigned int>(shown_status(response)));
+  *next++                    = static_cast<unsigned int>(shown_status(response));
   const auto [pressure, tau] = means.at(i);
-  values.push_back(pressure);
+  *next++                    = pressure;
   append(tau);
   return values;
+}
+
+/** Adds a number as "%.12g" shows it. */
+void
+add_number(const double value, std::string &text)
+{
+  std::array<char, 32> digits;
+  const auto           end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                           std::chars_format::general, 12)
+                     .ptr;
+  text.append(digits.data(), end);
 }
 } // namespace
 
@@ -117,11 +130,12 @@ contact_columns()
 }
 
 template <int dim>
-std::vector<std::vector<double>>
+std::vector<ContactRow<dim>>
 contact_rows(const ContactPoints<dim> &contact)
 {
-  const CellMeans<dim>             means(contact);
-  std::vector<std::vector<double>> rows;
+  const CellMeans<dim>         means(contact);
+  std::vector<ContactRow<dim>> rows;
+  rows.reserve(contact.points().size());
   for (unsigned int i = 0; i < contact.points().size(); ++i)
     rows.push_back(columns(contact, means, i));
   return rows;
@@ -240,26 +254,24 @@ bool
 write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator,
                   const std::string &directory, const unsigned int number)
 {
-  const auto gathered = dealii::Utilities::MPI::gather(communicator, contact_rows(contact));
+  auto rows = gather_joined(contact_rows(contact), communicator);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
     return true;
-  std::vector<std::vector<double>> rows;
-  for (const auto &of_process : gathered)
-    rows.insert(rows.end(), of_process.begin(), of_process.end());
   std::sort(rows.begin(), rows.end());
   const std::string name = directory + "/contact_" + dealii::Utilities::int_to_string(number, 4);
   return write_file(name + ".csv", [&](std::ofstream &file) {
-    file << std::setprecision(12);
     const auto names = contact_columns<dim>();
     for (unsigned int c = 0; c < names.size(); ++c)
       file << (c == 0 ? "" : ",") << names[c];
     file << '\n';
+    std::string line;
     for (const auto &row : rows)
-      for (unsigned int c = 0; c < row.size(); ++c)
-        if (c == 0)
-          file << contact.pairs()[static_cast<unsigned int>(row[0])].name;
-        else
-          file << ',' << row[c] << (c + 1 == row.size() ? "\n" : "");
+      {
+        line = contact.pairs()[static_cast<unsigned int>(row[0])].name;
+        for (unsigned int c = 1; c < row.size(); ++c)
+          add_number(row[c], line += ',');
+        file << (line += '\n');
+      }
   });
 }
 
@@ -272,23 +284,26 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
   auto names = contact_columns<dim>();
   // Position comes with the vertex.
   names.erase(names.begin() + 1, names.begin() + 1 + dim);
-  PointPatches<dim> output(names);
-  auto              rows = contact_rows(contact);
+  PointPatches<dim>   output(names);
+  const auto          rows = contact_rows(contact);
+  std::vector<double> values;
   for (unsigned int i = 0; i < rows.size(); ++i)
     {
-      rows[i].erase(rows[i].begin() + 1, rows[i].begin() + 1 + dim);
-      output.add(contact.points()[i].position, rows[i]);
+      values.assign(rows[i].begin() + dim, rows[i].end());
+      values[0] = rows[i][0];
+      output.add(contact.points()[i].position, values);
     }
   dealii::DataOutBase::VtkFlags flags;
-  flags.physical_units = unit_labels(parameters,
-                                     {{"weight", Quantity::area},
-                                      {"gap", Quantity::length},
-                                      {"pressure", Quantity::stress},
-                                      {"tau", Quantity::stress},
-                                      {"cell_pressure", Quantity::stress},
-                                      {"cell_tau", Quantity::stress},
-                                      {"jump", Quantity::length}},
-                                     dim);
+  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  flags.physical_units    = unit_labels(parameters,
+                                        {{"weight", Quantity::area},
+                                         {"gap", Quantity::length},
+                                         {"pressure", Quantity::stress},
+                                         {"tau", Quantity::stress},
+                                         {"cell_pressure", Quantity::stress},
+                                         {"cell_tau", Quantity::stress},
+                                         {"jump", Quantity::length}},
+                                        dim);
   output.set_flags(flags);
   return write_vtu_files(
     output, directory, "contact_" + dealii::Utilities::int_to_string(number, 4), communicator,
@@ -298,7 +313,7 @@ write_contact_vtu(const ContactPoints<dim> &contact, const FieldParameters &para
 #define SCREE_INSTANTIATE(dim)                                                                     \
   template struct ContactSummary<dim>;                                                             \
   template std::vector<std::string>         contact_columns<dim>();                                \
-  template std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &);              \
+  template std::vector<ContactRow<dim>>     contact_rows(const ContactPoints<dim> &);              \
   template std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &,          \
                                                               const MPI_Comm, const bool);         \
   template bool write_contact_csv(const ContactPoints<dim> &, const MPI_Comm, const std::string &, \

@@ -3,6 +3,7 @@
 #include <scree/contact/contact_points.h>
 #include <scree/output/field_parameters.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -82,9 +83,13 @@ std::vector<ContactSummary<dim>> summarise_contact(const ContactPoints<dim> &con
 template <int dim>
 std::vector<std::string> contact_columns();
 
-/** The columns of each contact point of this process, with the number of the pair in the first. */
+/** The columns of a contact point, with the number of the pair in the first. */
 template <int dim>
-std::vector<std::vector<double>> contact_rows(const ContactPoints<dim> &contact);
+using ContactRow = std::array<double, 6 + 5 * dim>;
+
+/** Those of each contact point of this process. */
+template <int dim>
+std::vector<ContactRow<dim>> contact_rows(const ContactPoints<dim> &contact);
 
 /**
  * Writes DIR/contact_NNNN.csv with all contact points, sorted by pair and position: pair, position,
