@@ -125,6 +125,26 @@ ContactPoints<dim>::stiffness(const unsigned int point) const
 }
 
 template <int dim>
+std::vector<bool>
+ContactPoints<dim>::stiff_points(const bool are_glued) const
+{
+  std::vector<bool> result;
+  for (unsigned int p = 0; p < points().size(); ++p)
+    result.push_back((are_glued ? glued_stiffness[p] : stiffness(p)).norm_square() != 0.);
+  return result;
+}
+
+template <int dim>
+std::vector<bool>
+ContactPoints<dim>::points_within(const double cells) const
+{
+  std::vector<bool> result;
+  for (unsigned int p = 0; p < points().size(); ++p)
+    result.push_back(gap(p) <= cells * points()[p].cell_size);
+  return result;
+}
+
+template <int dim>
 void
 ContactPoints<dim>::add_to_matrix(Matrix &matrix) const
 {

@@ -1,3 +1,4 @@
+#include <scree/base/sort_and_unite.h>
 #include <scree/contact/jump_operator.h>
 
 #include <algorithm>
@@ -299,12 +300,42 @@ JumpOperator<dim>::rows() const
 }
 
 template <int dim>
+std::vector<DofIndex>
+JumpOperator<dim>::all_unknowns() const
+{
+  std::vector<DofIndex> nodes = group_nodes;
+  sort_and_unite(nodes);
+  std::vector<DofIndex> result = unknowns_of_nodes<dim>(nodes.data(), nodes.size());
+  for (const Group &group : groups)
+    for (const RigidSide &side : rigid_sides[group.pair])
+      for (const unsigned int m : rigid_partners[side.partner].free_components)
+        result.push_back(rigid_partners[side.partner].first_unknown + m);
+  sort_and_unite(result);
+  return result;
+}
+
+template <int dim>
+void
+JumpOperator<dim>::complete_groups(std::vector<bool> &points) const
+{
+  for (const Group &group : groups)
+    {
+      const auto first = points.begin() + group.first_point, end = first + group.n_points;
+      std::fill(first, end, std::find(first, end, true) != end);
+    }
+}
+
+template <int dim>
 std::vector<std::vector<DofIndex>>
-JumpOperator<dim>::couplings() const
+JumpOperator<dim>::couplings(const std::vector<bool> &points) const
 {
   std::vector<std::vector<DofIndex>> result;
   for (const Group &group : groups)
-    result.push_back(unknowns(group));
+    {
+      const auto first = points.begin() + group.first_point, end = first + group.n_points;
+      if (std::find(first, end, true) != end)
+        result.push_back(unknowns(group));
+    }
   return result;
 }
 

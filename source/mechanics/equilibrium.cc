@@ -1,4 +1,3 @@
-#include <scree/base/sort_and_unite.h>
 #include <scree/mechanics/condition_motion.h>
 #include <scree/mechanics/equilibrium.h>
 
@@ -47,21 +46,12 @@ Equilibrium<dim>::Equilibrium(const DisplacementSpace<dim> &space,
 
 template <int dim>
 void
-Equilibrium<dim>::set_up_matrices()
+Equilibrium<dim>::make_matrix(const std::vector<std::vector<DofIndex>> &of_contact,
+                              Matrix                                   &matrix) const
 {
-  const MPI_Comm communicator = space.grid.communicator();
-  const auto     of_bulk      = bulk.couplings();
-  const auto     of_contact   = contact.jump_operator().couplings();
-  ghosted_dofs                = space.relevant();
-  std::vector<DofIndex> of_stencils; // At once: single lists are inserted in linear time each.
-  for (const auto &unknowns : of_contact)
-    of_stencils.insert(of_stencils.end(), unknowns.begin(), unknowns.end());
-  sort_and_unite(of_stencils);
-  ghosted_dofs.add_indices(of_stencils.begin(), of_stencils.end());
-  ghosted_dofs.compress();
-
+  const MPI_Comm                 communicator = space.grid.communicator();
   dealii::DynamicSparsityPattern pattern(space.n_dofs(), space.n_dofs(), ghosted_dofs);
-  for (const auto &nodes : of_bulk)
+  for (const auto &nodes : bulk.couplings())
     space.hanging_constraints().add_entries_local_to_global(
       unknowns_of_nodes<dim>(nodes.data(), nodes.size()), pattern, true);
   // Contact stencils have no hanging nodes, but may have nodes that are not relevant here
@@ -76,8 +66,20 @@ Equilibrium<dim>::set_up_matrices()
     pattern.add(index, index);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, space.owned(), communicator,
                                                      ghosted_dofs);
-  stiffness.reinit(space.owned(), space.owned(), pattern, communicator, true);
-  newton_matrix.reinit(space.owned(), space.owned(), pattern, communicator, true);
+  matrix.reinit(space.owned(), space.owned(), pattern, communicator, true);
+}
+
+template <int dim>
+void
+Equilibrium<dim>::set_up_matrices()
+{
+  const MPI_Comm communicator = space.grid.communicator();
+  ghosted_dofs                = space.relevant();
+  // At once: single lists are inserted in linear time each.
+  const auto of_stencils = contact.jump_operator().all_unknowns();
+  ghosted_dofs.add_indices(of_stencils.begin(), of_stencils.end());
+  ghosted_dofs.compress();
+  make_matrix({}, stiffness);
 
   bulk.add_to_matrix(stiffness);
   stiffness.compress(dealii::VectorOperation::add);
@@ -237,9 +239,29 @@ Equilibrium<dim>::set_zero_where_not_sought(Vector &r) const
 
 template <int dim>
 void
+Equilibrium<dim>::couple(const std::vector<bool> &points)
+{
+  constexpr double near         = 0.5; // cells: what may close in the next iterations
+  const MPI_Comm   communicator = space.grid.communicator();
+  unsigned int     is_missing   = coupled.size() != points.size() || newton_matrix.m() == 0;
+  for (std::size_t p = 0; p < points.size() && !is_missing; ++p)
+    is_missing = points[p] && !coupled[p];
+  if (dealii::Utilities::MPI::max(is_missing, communicator) == 0)
+    return;
+  const std::vector<bool> also = contact.points_within(near);
+  coupled.resize(points.size(), false);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    coupled[p] = coupled[p] || points[p] || also[p];
+  contact.jump_operator().complete_groups(coupled);
+  make_matrix(contact.jump_operator().couplings(coupled), newton_matrix);
+}
+
+template <int dim>
+void
 Equilibrium<dim>::start_tangent()
 {
-  newton_matrix.copy_from(stiffness);
+  newton_matrix = 0.;
+  newton_matrix.add(1., stiffness);
   if (has_inertia())
     {
       newton_matrix.add(inertia.factor, *inertia.mass->matrix());
@@ -251,6 +273,7 @@ template <int dim>
 const typename Equilibrium<dim>::Matrix &
 Equilibrium<dim>::tangent()
 {
+  couple(contact.stiff_points(false));
   start_tangent();
   bulk.add_tangent(seen_by_bulk, newton_matrix);
   boundary_terms.add_tangent(seen_by_bulk, time, newton_matrix);
@@ -275,8 +298,10 @@ template <int dim>
 Condensation
 Equilibrium<dim>::condensation(const bool only_closed)
 {
+  const auto &glued = contact.choose_glued(only_closed);
+  couple(contact.stiff_points(true));
   start_tangent();
-  contact.jump_operator().add_stiffness(contact.choose_glued(only_closed), newton_matrix);
+  contact.jump_operator().add_stiffness(glued, newton_matrix);
   add_artificial_mass(newton_matrix);
   newton_matrix.compress(dealii::VectorOperation::add);
   eliminate_prescribed(newton_matrix);

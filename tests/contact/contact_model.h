@@ -61,8 +61,8 @@ displacement(const CutBodies<dim> &model, const ContactPoints<dim> &contact,
     }
   owned.compress(dealii::VectorOperation::insert);
   dealii::IndexSet relevant = space.relevant();
-  for (const auto &unknowns : contact.jump_operator().couplings())
-    relevant.add_indices(unknowns.begin(), unknowns.end());
+  const auto       unknowns = contact.jump_operator().all_unknowns();
+  relevant.add_indices(unknowns.begin(), unknowns.end());
   relevant.compress();
   dealii::TrilinosWrappers::MPI::Vector result(space.owned(), relevant, model.grid.communicator());
   result = owned;

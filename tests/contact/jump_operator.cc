@@ -18,6 +18,23 @@ using Vector = TrilinosWrappers::MPI::Vector;
 
 template <int dim>
 void
+expect_couplings_of_a_group(const JumpOperator<dim> &B, const unsigned int n)
+{
+  EXPECT_TRUE(B.couplings(std::vector<bool>(n, false)).empty());
+  std::vector<bool> of_one_group(n, false);
+  of_one_group[n / 2] = true;
+  B.complete_groups(of_one_group);
+  const auto of_group = B.couplings(of_one_group);
+  ASSERT_EQ(of_group.size(), 1u);
+  const auto all = B.all_unknowns();
+  EXPECT_TRUE(
+    std::includes(all.begin(), all.end(), of_group.front().begin(), of_group.front().end()));
+  EXPECT_FALSE(of_one_group[0]);
+  EXPECT_TRUE(of_one_group[n / 2]);
+}
+
+template <int dim>
+void
 check_adjoint(const CutBodies<dim> &model, ContactDiscretisation<dim> &&discretisation)
 {
   JumpOperator<dim> &B = discretisation.jump_operator;
@@ -53,7 +70,7 @@ check_adjoint(const CutBodies<dim> &model, ContactDiscretisation<dim> &&discreti
   EXPECT_NEAR(f * u, work, 1e-12 * f.l2_norm() * u.l2_norm());
 
   DynamicSparsityPattern pattern(model.space->n_dofs());
-  for (const auto &unknowns : B.couplings())
+  for (const auto &unknowns : B.couplings(std::vector<bool>(n, true)))
     for (const auto row : unknowns)
       pattern.add_entries(row, unknowns.begin(), unknowns.end());
   TrilinosWrappers::SparseMatrix K;
@@ -62,6 +79,8 @@ check_adjoint(const CutBodies<dim> &model, ContactDiscretisation<dim> &&discreti
   K.compress(VectorOperation::add);
   K.vmult(Ku, u);
   EXPECT_NEAR(u * Ku, energy, 1e-12 * Ku.l2_norm() * u.l2_norm());
+
+  expect_couplings_of_a_group(B, n);
 
   const SparseRows rows = B.rows();
   ASSERT_EQ(rows.n_rows(), n * dim);

@@ -383,7 +383,8 @@ compare_tangent()
   ContactPoints<dim>     contact = contact_points(model, "stick");
   const auto             history = contact.initial_history();
   DynamicSparsityPattern pattern(model.space->n_dofs());
-  for (const auto &unknowns : contact.jump_operator().couplings())
+  for (const auto &unknowns :
+       contact.jump_operator().couplings(std::vector<bool>(contact.points().size(), true)))
     for (const auto row : unknowns)
       pattern.add_entries(row, unknowns.begin(), unknowns.end());
   TrilinosWrappers::SparseMatrix K;

@@ -127,6 +127,12 @@ public:
     jump_operator().add_forces(contact_forces, residual);
   }
 
+  /** The points with a stiffness D in the last evaluation; with D_0 if they are glued. */
+  std::vector<bool> stiff_points(const bool are_glued) const;
+
+  /** The points with gaps up to `cells` of theirs in the last evaluation. */
+  std::vector<bool> points_within(const double cells) const;
+
   /** Adds the derivative of R_contact of the last evaluation. */
   void add_to_matrix(Matrix &matrix) const;
 

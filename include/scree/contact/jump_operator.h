@@ -78,8 +78,15 @@ public:
   /** Rows of B on nodes: component d of [[u]] at point p is (B u)(p dim + d). */
   SparseRows rows() const;
 
-  /** The unknowns of each group, ascending: what couples in the matrix. */
-  std::vector<std::vector<DofIndex>> couplings() const;
+  /** The unknowns of all points, ascending. */
+  std::vector<DofIndex> all_unknowns() const;
+
+  /** Adds to some points the others of their groups. */
+  void complete_groups(std::vector<bool> &points) const;
+
+  /** The unknowns of each group with some of these points, ascending: what couples in the matrix.
+   */
+  std::vector<std::vector<DofIndex>> couplings(const std::vector<bool> &points) const;
 
 private:
   /** Points of a pair with the same nodes. */

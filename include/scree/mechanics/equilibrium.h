@@ -164,7 +164,6 @@ public:
   /** RigidBodies::states() of the last residual(), inertia included (collective). */
   std::vector<RigidBodyState<dim>> rigid_states(const Vector &ghosted_u) const;
   const StrongSupports<dim>       &strong_supports() const;
-
   /** Largest |u| at the nodes of each body, since the geometry last moved (collective). */
   std::vector<double> largest_displacements(const Vector &u) const;
 
@@ -174,17 +173,13 @@ public:
 
   /** Resultants of all conditions, in the order of condition_names(); of the last residual(). */
   std::vector<Resultant<dim>> resultants(const Vector &u) const;
-
   /** Forces on deformable bodies, their stress, at the u of the last residual() (collective). */
   std::vector<BodyBalance<dim>> balance(const Vector &u) const;
   std::vector<BodyStress<dim>>  body_stresses(const Vector &u) const;
-
   /** "body.condition", integrals first, then strong ones. */
   std::vector<std::string> condition_names() const;
-
   /** Takes `u` as the accepted state of a step: adds its work and dissipation. */
   void accept(const Vector &u, const ContactHistory<dim> &old_history);
-
   /** Energies of the accepted state. */
   const Energies &energies() const;
 
@@ -194,6 +189,8 @@ public:
 
 private:
   void set_up_matrices();
+  /** A zero matrix with the entries of all but contact, and of these couplings (collective). */
+  void make_matrix(const std::vector<std::vector<DofIndex>> &of_contact, Matrix &matrix) const;
   /** Adds body forces and weight of deformable bodies. */
   void                                  add_volume_forces(Vector &forces) const;
   typename FreeBodies<dim>::Coordinates loads_on_free_bodies() const;
@@ -202,6 +199,8 @@ private:
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void hold_moments(Vector &r);
   void set_zero_on_prescribed(Vector &r) const;
+  /** Gives K entries for these contact points, and those near, if it lacks some (collective). */
+  void couple(const std::vector<bool> &points);
   void start_tangent(); //!< K = A + c M, with the inertia of rigid bodies
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
@@ -223,6 +222,7 @@ private:
   EnergyLedger<dim>             ledger;
 
   Matrix              stiffness, newton_matrix; //!< A and K
+  std::vector<bool>   coupled;                  //!< contact points with entries in K
   Vector              loads;                    //!< f
   Vector              dead_loads;               //!< tractions, pressures and body forces in f
   Vector              start_forces;    //!< of u_n; of a bulk that is not linear by small cuts
