@@ -17,6 +17,9 @@ constexpr double least_bend = 0.02;
  * cells. */
 constexpr double accuracy = 0.02;
 
+/** A least gap that the first step expects so many cells from a cell's point is not in the cell. */
+constexpr double far = 3.;
+
 /** The part of a cell's surface that the point of least gap takes. */
 constexpr double share = 0.125;
 
@@ -100,10 +103,12 @@ LeastGap<dim>::minimum(const dealii::Point<dim> &start, const double size) const
   double                 length = 0.;
   for (unsigned int iteration = 0; iteration < most_iterations; ++iteration)
     {
-      const Tensor normal   = distance(pair.a, result.x).second - distance(pair.b, result.x).second;
-      const auto   tangents = surface_tangents<dim>(normal / normal.norm());
-      const auto   at       = [&](const Tensor &offset) { return gap(result.x + step * offset); };
-      const double here     = gap(result.x);
+      const auto [phi_a, n_a] = distance(pair.a, result.x);
+      const auto [phi_b, n_b] = distance(pair.b, result.x);
+      const Tensor normal     = n_a - n_b;
+      const auto   tangents   = surface_tangents<dim>(normal / normal.norm());
+      const auto   at         = [&](const Tensor &offset) { return gap(result.x + step * offset); };
+      const double here       = phi_a + phi_b;
       dealii::Tensor<1, dim - 1>          f;
       dealii::SymmetricTensor<2, dim - 1> H;
       for (unsigned int k = 0; k < dim - 1; ++k)
@@ -120,7 +125,9 @@ LeastGap<dim>::minimum(const dealii::Point<dim> &start, const double size) const
       const auto reduction = newton_step<dim - 1>(H, f, least_bend / size);
       if (!reduction)
         return {};
-      length             = reduction->norm();
+      length = reduction->norm();
+      if (iteration == 0 && length > far * size)
+        return {};
       const double limit = std::min(1., size / length);
       for (unsigned int k = 0; k < dim - 1; ++k)
         result.x -= limit * (*reduction)[k] * tangents[k];
