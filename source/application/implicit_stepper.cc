@@ -3,6 +3,7 @@
 #include <scree/contact/contact_reach.h>
 #include <scree/mechanics/balance_checks.h>
 #include <scree/mechanics/contact_groups.h>
+#include <scree/mechanics/contact_prediction.h>
 #include <scree/mechanics/existence.h>
 #include <scree/mechanics/first_guess.h>
 #include <scree/mechanics/material_update.h>
@@ -85,6 +86,12 @@ ImplicitStepper<dim>::finds_another_way(const typename Attempt<dim>::Outcome out
     {
       if (is_unsolved)
         require_equilibrium_exists(model.problem(), model.state(), step_control.next_time());
+      if ((is_unsolved || goes_far) && !predicts_contact && may_predict_contact())
+        {
+          predicts_contact = true;
+          free_motion      = std::numeric_limits<double>::infinity();
+          return true;
+        }
       if ((is_unsolved || has_slipped) && relaxation.may_help() && relaxation.run())
         return true;
     }
@@ -130,7 +137,7 @@ ImplicitStepper<dim>::attempt()
   const TimeScheme<dim> &scheme = model.time_scheme();
   problem.equilibrium().set_inertia(scheme.inertia(problem.mass, model.state(), time));
   accuracy.begin_attempt();
-  auto               u = first_guess<dim>(problem, scheme, model.state(), time, linear_solve());
+  auto               u      = guess(time);
   const NewtonResult result = solve_step(u);
   record.newton_iterations  = result.iterations;
   record.residual           = result.residuals.empty() ? 0. : result.residuals.back();
@@ -163,8 +170,7 @@ ImplicitStepper<dim>::attempt()
   const Rates rates = rates_at_end(problem, scheme, model.state(), u, time);
   if (!is_accurate(u, rates, attempt))
     return attempt;
-  if (problem.mass)
-    take_motion(u, rates, attempt);
+  take_motion(u, rates, attempt);
   problem.equilibrium().accept(u, model.state().contact);
   require_contact_within_reach(problem.contact(), problem.contact_reach(), problem.communicator());
   if (!model.is_moving())
@@ -174,10 +180,11 @@ ImplicitStepper<dim>::attempt()
       warn_of_large_strains(problem, balances, time, run_log);
     }
   model.accept(u, time, rates);
-  attempt.outcome = Attempt<dim>::Outcome::accepted;
-  has_turned      = false;
-  has_slid        = true;
-  free_motion     = std::numeric_limits<double>::infinity();
+  attempt.outcome  = Attempt<dim>::Outcome::accepted;
+  has_turned       = false;
+  has_slid         = true;
+  predicts_contact = false;
+  free_motion      = std::numeric_limits<double>::infinity();
   relaxation.finish();
   accuracy.accept();
   return attempt;
@@ -341,8 +348,10 @@ template <int dim>
 unsigned int
 ImplicitStepper<dim>::patience(const bool is_patient) const
 {
-  constexpr unsigned int few = 60;
-  return is_patient ? parameters.newton.patience : few;
+  constexpr unsigned int few = 60, very_few = 30;
+  if (is_patient)
+    return parameters.newton.patience;
+  return may_predict_contact() && !predicts_contact && !relaxation.is_pending() ? very_few : few;
 }
 
 template <int dim>
@@ -353,6 +362,33 @@ ImplicitStepper<dim>::newton(const unsigned int patience, const double left)
   of_attempt.patience         = patience;
   of_attempt.absolute_tolerance += left;
   return Newton(of_attempt, hooks());
+}
+
+template <int dim>
+bool
+ImplicitStepper<dim>::may_predict_contact() const
+{
+  const Equilibrium<dim> &equilibrium = model.problem().equilibrium();
+  return model.is_moving() && equilibrium.free_bodies().size() > 1 && !equilibrium.has_inertia()
+         && !is_second_attempt;
+}
+
+template <int dim>
+typename ImplicitStepper<dim>::Vector
+ImplicitStepper<dim>::guess(const double time)
+{
+  const DiscreteProblem<dim> &problem = model.problem();
+  problem.equilibrium().body_holds().release();
+  Vector u = first_guess<dim>(problem, model.time_scheme(), model.state(), time, linear_solve());
+  if (!predicts_contact || relaxation.is_pending())
+    return u;
+  ContactPrediction<dim> prediction = contact_prediction<dim>(problem, model.state().contact, u,
+                                                              [&]() { return is_interrupted(); });
+  record.linear_iterations += prediction.n_linear_iterations;
+  run_log.log.line("  contact is closed by an interior-point method first, in "
+                   + std::to_string(prediction.n_iterations) + " iterations");
+  problem.equilibrium().set_prescribed(prediction.u);
+  return prediction.u;
 }
 
 template <int dim>

@@ -39,8 +39,8 @@ ImplicitStepper<dim>::take_points(const Vector &u, Attempt<dim> &attempt)
   // A body that slips out of contact goes as far in half a step.
   constexpr double as_far = 0.75;
   const double     motion = largest_free_motion(u);
-  has_slipped             = motion > as_far * free_motion
-                && motion > parameters.moving.largest_motion * model.problem().grid.finest_size();
+  goes_far        = motion > parameters.moving.largest_motion * model.problem().grid.finest_size();
+  has_slipped     = goes_far && motion > as_far * free_motion;
   free_motion     = motion;
   attempt.outcome = Attempt<dim>::Outcome::too_large;
   return false;
@@ -62,6 +62,8 @@ template <int dim>
 void
 ImplicitStepper<dim>::take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const
 {
+  if (!model.problem().mass)
+    return;
   if (!model.has_inertia())
     {
       attempt.record.momenta.assign(model.problem().bodies.size() * n_rigid_components<dim>, 0.);

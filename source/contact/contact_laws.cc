@@ -124,26 +124,42 @@ ContactLaws<dim>::acting(const std::vector<ContactPoint<dim>>      &points,
 }
 
 template <int dim>
+std::vector<FrictionBound>
+ContactLaws<dim>::bounds(const std::vector<ContactPoint<dim>> &points,
+                         const std::vector<unsigned int>      &numbers,
+                         const std::vector<double>            &pressures) const
+{
+  std::vector<FrictionBound> result(numbers.size());
+  for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
+    if (const ContactLaw &law = acting_law(pair); law.bound)
+      law.bound(of_pairs[pair].law, range.of(pressures), range.of(result));
+  });
+  return result;
+}
+
+template <int dim>
 std::vector<ContactResponse<dim>>
 ContactLaws<dim>::respond(const std::vector<ContactPoint<dim>>  &points,
                           const std::vector<unsigned int>       &numbers,
                           const std::vector<ContactMotion<dim>> &motions,
                           const std::vector<TrialTraction<dim>> &trials) const
 {
+  std::vector<FrictionBound> of_points;
+  if (frozen_bounds.empty())
+    {
+      std::vector<double> pressures;
+      pressures.reserve(trials.size());
+      for (const TrialTraction<dim> &trial : trials)
+        pressures.push_back(std::max(0., trial.pressure));
+      of_points = bounds(points, numbers, pressures);
+    }
+  else
+    for (const unsigned int i : numbers)
+      of_points.push_back({frozen_bounds[i], 0.});
   std::vector<ContactResponse<dim>> responses(numbers.size());
-  std::vector<double>               pressures;
-  std::vector<FrictionBound>        bounds(numbers.size());
-  pressures.reserve(trials.size());
-  for (const TrialTraction<dim> &trial : trials)
-    pressures.push_back(std::max(0., trial.pressure));
-  for (unsigned int i = 0; i < numbers.size() && !frozen_bounds.empty(); ++i)
-    bounds[i].value = frozen_bounds[numbers[i]];
   for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
-    const ContactLaw &law = acting_law(pair);
-    if (law.bound && frozen_bounds.empty())
-      law.bound(of_pairs[pair].law, range.of(std::as_const(pressures)), range.of(bounds));
-    return_to_admissible<dim>(law, range.of(motions), range.of(trials),
-                              range.of(std::as_const(bounds)), range.of(responses));
+    return_to_admissible<dim>(acting_law(pair), range.of(motions), range.of(trials),
+                              range.of(std::as_const(of_points)), range.of(responses));
   });
   return responses;
 }
@@ -162,13 +178,7 @@ ContactLaws<dim>::freeze(const std::vector<ContactPoint<dim>>    &points,
       pressures.push_back(response.pressure);
       frozen_closed_parts.push_back(response.closed_part);
     }
-  std::vector<FrictionBound> bounds(points.size());
-  for_each_pair(points, numbers, [&](const unsigned int pair, const Range &range) {
-    const ContactLaw &law = acting_law(pair);
-    if (law.bound)
-      law.bound(of_pairs[pair].law, range.of(std::as_const(pressures)), range.of(bounds));
-  });
-  for (const FrictionBound &bound : bounds)
+  for (const FrictionBound &bound : bounds(points, numbers, pressures))
     frozen_bounds.push_back(bound.value);
 }
 

@@ -95,9 +95,16 @@ ContactPoints<dim>::responses_to(const std::vector<unsigned int>           &numb
 
 template <int dim>
 void
+ContactPoints<dim>::take_jumps(const Vector &u)
+{
+  evaluated = discretisation.jump_operator.evaluate(u);
+}
+
+template <int dim>
+void
 ContactPoints<dim>::evaluate(const Vector &u, const ContactHistory<dim> &history)
 {
-  evaluated         = discretisation.jump_operator.evaluate(u);
+  take_jumps(u);
   const auto acting = contact_laws.acting(points(), evaluated.jumps, *contact_enforcement);
   std::vector<dealii::Tensor<1, dim>> jumps;
   for (const unsigned int i : acting)

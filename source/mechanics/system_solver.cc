@@ -60,8 +60,16 @@ SystemSolver<dim>::solve(const Vector &r, const double tolerance, const bool may
     const Timings::Scope scope(timings, "tangent");
     return &equilibrium.tangent();
   }();
+  return solve(*matrix, r, equilibrium.is_symmetric(), tolerance, du);
+}
+
+template <int dim>
+LinearSolveResult
+SystemSolver<dim>::solve(const typename Equilibrium<dim>::Matrix &A, const Vector &b,
+                         const bool is_symmetric, const double tolerance, Vector &x)
+{
   const Timings::Scope scope(timings, "linear solver");
-  return linear_solver.solve(*matrix, du, r, equilibrium.is_symmetric(), tolerance);
+  return linear_solver.solve(A, x, b, is_symmetric, tolerance);
 }
 
 template <int dim>

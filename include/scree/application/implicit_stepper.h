@@ -58,17 +58,23 @@ private:
   bool is_accurate(const Vector &u, const Rates &rates, Attempt<dim> &attempt);
   /** With inertia, where nothing resolves it. */
   void warn_of_overlap() const;
-  /** With inertia: the kinetic energy, the momenta, and the velocities of material points. */
+  /** In runs with inertia: kinetic energy, momenta, and velocities of material points. */
   void take_motion(const Vector &u, const Rates &rates, Attempt<dim> &attempt) const;
   /** The material points after the step; false, with the outcome, if they moved too far. */
   bool take_points(const Vector &u, Attempt<dim> &attempt);
-  /** NewtonParameters::patience: of the input, or 60 while there are other ways to go. */
+  /** NewtonParameters::patience: of the input, or 60 while there are other ways to go, 30 while
+   * contact_prediction() is one. */
   unsigned int patience(const bool is_patient) const;
   /** @param left what of the residual may be left, beyond the tolerances [force] */
   Newton       newton(const unsigned int patience, const double left = 0.);
   NewtonResult solve_step(Vector &u);
   /** Newton's method, again while the enforcement of contact changes its multipliers. */
   NewtonResult solve_enforced(const Newton &newton, Vector &u);
+  /** Whether several bodies of a moving geometry that only contact holds may be where a
+   * contact_prediction() leads. */
+  bool may_predict_contact() const;
+  /** The u from which Newton's method starts: first_guess() or a contact_prediction() from it. */
+  Vector guess(const double time);
   /** Sum of contact pressures that is none beside those of this step [force]. */
   double negligible_pressure() const
   {
@@ -100,9 +106,11 @@ private:
   StepRecord             record;                    //!< that is being solved
   bool                   is_second_attempt = false; //!< of all steps until it changes
   bool                   has_turned        = false; //!< this step, to the other kind of attempt
-  bool                   has_slid    = false; //!< bodies may have: contact was closed with friction
-  bool                   has_slipped = false; //!< a free body, in an attempt that was too large
-  double                 free_motion
+  bool                   predicts_contact  = false; //!< this step, after an attempt that failed
+  bool                   has_slid = false; //!< bodies may have: contact was closed with friction
+  bool                   goes_far = false; //!< a free body, in an attempt that was too large
+  bool   has_slipped              = false; //!< it went as far in the one before, which was longer
+  double free_motion
     = std::numeric_limits<double>::infinity(); //!< largest in the last of these [L]
   bool   has_more_mass = false;                //!< K, in a lagged step
   double pressed = 0., most_pressed = 0.; //!< contact pressures, added up: now and at most [force]

@@ -81,6 +81,11 @@ public:
                                             const std::vector<ContactMotion<dim>> &motions,
                                             const std::vector<TrialTraction<dim>> &trials) const;
 
+  /** The b of points under these pressures >= 0; what is frozen does not count. */
+  std::vector<FrictionBound> bounds(const std::vector<ContactPoint<dim>> &points,
+                                    const std::vector<unsigned int>      &numbers,
+                                    const std::vector<double>            &pressures) const;
+
 private:
   /** The law that acts between a pair now. */
   const ContactLaw &acting_law(const unsigned int pair) const;

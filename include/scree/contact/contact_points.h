@@ -80,6 +80,9 @@ public:
   /** Computes [[u]] and the response of all points for the ghosted displacement `u`. */
   void evaluate(const Vector &u, const ContactHistory<dim> &history);
 
+  /** Computes [[u]] alone; the responses and forces are those of the last evaluate(). */
+  void take_jumps(const Vector &u);
+
   /**
    * The responses of points to jumps, whatever the last evaluation was; points of a pair come one
    * after the other.

@@ -54,8 +54,7 @@ public:
   void start_step(const double time, const Vector &u, const ContactHistory<dim> &history,
                   const Energies &energies, const DrivingForces<dim> *driving);
 
-  /** What drives bodies at the accepted state (collective). */
-  DrivingForces<dim> driving_forces() const;
+  DrivingForces<dim> driving_forces() const; //!< at the accepted state (collective)
 
   /** Goes on after the accepted state `u` of these equations, with its time, history, energies. */
   void resume(const double time, const Vector &u, const ContactHistory<dim> &history,
@@ -77,8 +76,7 @@ public:
   void set_inertia(Inertia<dim> of_step); //!< none by default
   bool has_inertia() const;
 
-  /** Sets the kinetic energy of the state that start_step(), resume() or accept() takes. */
-  void set_kinetic_energy(const double energy);
+  void set_kinetic_energy(const double energy); //!< of what start_step(), resume(), accept() take
   /** r(u) of the last residual() without inertia and contact. */
   Vector forces_without_inertia() const;
 
@@ -88,16 +86,20 @@ public:
   /** With inertia: starts a run at `u`; all that the bodies have there is external work. */
   void start_motion(const double time, const Vector &u, const ContactHistory<dim> &history);
 
-  /** Sets the prescribed unknowns of the time of set_time() in `u`. */
-  void set_prescribed(Vector &u) const;
+  void set_prescribed(Vector &u) const; //!< sets what is prescribed at the time of set_time()
   /** r(u) with the contact history at the start of the step; 0 on prescribed and hanging rows. */
   void residual(const Vector &u, const ContactHistory<dim> &history, Vector &r);
 
-  /** Sets prescribed and hanging rows to zero. */
-  void set_zero_where_not_sought(Vector &r) const;
+  void set_zero_where_not_sought(Vector &r) const; //!< on prescribed and hanging rows
 
-  /** K at the last residual(), prescribed rows and columns eliminated. */
-  const Matrix &tangent();
+  const Matrix &tangent(); //!< K at the last residual(), prescribed rows and columns eliminated
+
+  /** K at the last residual() without contact and artificial mass, with all rows and columns. */
+  void tangent_without_contact(Matrix &K_0);
+
+  /** K_0 + B^T D B with the artificial mass, prescribed rows and columns eliminated. */
+  const Matrix &tangent_with_contact(const Matrix                              &K_0,
+                                     const std::vector<dealii::Tensor<2, dim>> &D);
 
   /** @param only_closed glues the points that are closed at the last residual(), not all */
   Condensation condensation(const bool only_closed);
@@ -107,6 +109,7 @@ public:
 
   /** Whether K is symmetric positive definite at the u of the last residual(). */
   bool is_symmetric() const;
+  bool is_symmetric_without_contact() const; //!< the same of K_0
   /**
    * Shortens the increment `du` of the last residual() such that no body that nothing holds moves
    * farther than `length`: the artificial mass alone would send it anywhere (collective).
@@ -158,8 +161,7 @@ public:
   /** Whether r, of the last residual(), is at most `tolerance` but for moments below the accuracy
    * of geometry: 1e-4 of FreeBodies::misplaced_moments() (collective). */
   bool is_geometric(const Vector &r, const double tolerance) const;
-  /** Whether tangents change by contact, and rigid bodies, alone. */
-  bool                    is_linear_elsewhere() const;
+  bool is_linear_elsewhere() const; //!< contact and rigid bodies alone change tangents
   const RigidBodies<dim> &rigid_bodies() const;
   /** RigidBodies::states() of the last residual(), inertia included (collective). */
   std::vector<RigidBodyState<dim>> rigid_states(const Vector &ghosted_u) const;
@@ -176,12 +178,10 @@ public:
   /** Forces on deformable bodies, their stress, at the u of the last residual() (collective). */
   std::vector<BodyBalance<dim>> balance(const Vector &u) const;
   std::vector<BodyStress<dim>>  body_stresses(const Vector &u) const;
-  /** "body.condition", integrals first, then strong ones. */
-  std::vector<std::string> condition_names() const;
+  std::vector<std::string>      condition_names() const; //!< "body.condition", strong ones last
   /** Takes `u` as the accepted state of a step: adds its work and dissipation. */
-  void accept(const Vector &u, const ContactHistory<dim> &old_history);
-  /** Energies of the accepted state. */
-  const Energies &energies() const;
+  void            accept(const Vector &u, const ContactHistory<dim> &old_history);
+  const Energies &energies() const; //!< of the accepted state
 
   const Kinematics<dim>                 &kinematics;
   const std::shared_ptr<const Mass<dim>> mass;      //!< of runs with inertia, else null
@@ -201,7 +201,7 @@ private:
   void set_zero_on_prescribed(Vector &r) const;
   /** Gives K entries for these contact points, and those near, if it lacks some (collective). */
   void couple(const std::vector<bool> &points);
-  void start_tangent(); //!< K = A + c M, with the inertia of rigid bodies
+  void start_tangent(); //!< K without contact and artificial mass
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
   void reactions(Vector &result) const;

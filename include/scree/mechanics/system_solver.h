@@ -34,6 +34,10 @@ public:
   LinearSolveResult solve(const Vector &r, const double tolerance, const bool may_condense,
                           Vector &du);
 
+  /** Solves A x = b, A with the unknowns of K. */
+  LinearSolveResult solve(const typename Equilibrium<dim>::Matrix &A, const Vector &b,
+                          const bool is_symmetric, const double tolerance, Vector &x);
+
 private:
   LinearSolveResult solve_condensed(const Vector &r, Vector &du);
 
