@@ -21,7 +21,7 @@ struct ContactPrediction
  *
  *     (K_0 + B^T D B) du = r - K_0 (u' - u) + B^T (forces + changes),
  *
- * u' + alpha du until p s is 1e-4 of what it was at first, what is left of forces 5e-2 of those of
+ * u' + alpha du until p s is 1e-4 of what it was at first, what is left of forces 1e-2 of those of
  * contact or 1e-5 of those at first, for 40 iterations, or till a linear system cannot be solved.
  * Each body then turns finitely by its rigid part. How many iterations it takes does not depend on
  * how many contacts close one after the other.
