@@ -51,19 +51,6 @@ ContactLaws<dim>::acting_law(const unsigned int pair) const
 
 template <int dim>
 bool
-ContactLaws<dim>::has_bound_without_pressure(const unsigned int pair) const
-{
-  const ContactLaw &law = acting_law(pair);
-  if (!law.bound || law.glues) // what is not glued does nothing
-    return false;
-  const std::vector<double>  pressure(1, 0.);
-  std::vector<FrictionBound> bound(1);
-  law.bound(of_pairs[pair].law, dealii::make_array_view(pressure), dealii::make_array_view(bound));
-  return bound[0].value > 0.;
-}
-
-template <int dim>
-bool
 ContactLaws<dim>::have_friction() const
 {
   return std::any_of(of_pairs.begin(), of_pairs.end(),
@@ -103,7 +90,6 @@ ContactLaws<dim>::acting(const std::vector<ContactPoint<dim>>      &points,
                          const std::vector<dealii::Tensor<1, dim>> &jumps,
                          const Enforcement<dim>                    &enforcement) const
 {
-  constexpr double          surely_open = 1e-6; // cells
   std::vector<unsigned int> result;
   unsigned int              pair            = dealii::numbers::invalid_unsigned_int;
   bool                      acts_when_apart = false;
@@ -113,7 +99,8 @@ ContactLaws<dim>::acting(const std::vector<ContactPoint<dim>>      &points,
       if (point.pair != pair)
         {
           pair            = point.pair;
-          acts_when_apart = has_bound_without_pressure(pair);
+          acts_when_apart = !acting_law(pair).glues // what is not glued does nothing
+                            && bounds(points, {i}, {0.})[0].value > 0.;
         }
       const double gap = point.initial_gap + point.normal * jumps[i];
       if (!(gap > surely_open * point.cell_size) || point.is_glued || acts_when_apart

@@ -59,7 +59,7 @@ template <int dim>
 void
 InteriorContact<dim>::look()
 {
-  motions = contact.laws().motions(contact.points(), all_points, contact.jumps(), history);
+  auto motions = contact.laws().motions(contact.points(), all_points, contact.jumps(), history);
   for (ContactMotion<dim> &motion : motions)
     motion.kept_closed_part = 1.;
   trials = contact.enforcement().trial_tractions(all_points, motions, history);
@@ -81,7 +81,7 @@ InteriorContact<dim>::complementarity() const
 {
   double sum = 0.;
   for (const unsigned int i : all_points)
-    if (!is_spring(i) && !is_idle(i))
+    if (has_slack(i))
       sum += contact.points()[i].weight * pressure[i] * slack[i];
   sum = dealii::Utilities::MPI::sum(sum, communicator);
   return area > 0. ? sum / area : 0.;
@@ -93,7 +93,7 @@ InteriorContact<dim>::infeasibility() const
 {
   double largest = 0.;
   for (const unsigned int i : all_points)
-    if (!is_spring(i) && !is_idle(i))
+    if (has_slack(i))
       largest
         = std::max(largest, std::abs(gap[i] + pressure[i] / trials[i].normal_stiffness - slack[i]));
   return dealii::Utilities::MPI::max(largest, communicator);
@@ -158,7 +158,7 @@ InteriorContact<dim>::step_length()
   };
   for (const unsigned int i : all_points)
     {
-      if (is_spring(i) || is_idle(i))
+      if (!has_slack(i))
         continue;
       const double eps     = trials[i].normal_stiffness;
       const double opening = contact.points()[i].normal * (contact.jumps()[i] - old_jumps[i]);

@@ -118,7 +118,8 @@ LinearisedBodies<dim>::step(const double mu, const Vector<dim> &u_0, InteriorCon
   };
   go(1.);
   alpha = interior.step_length();
-  go(alpha);
+  if (alpha < 1.)
+    go(alpha);
   interior.advance(alpha);
   change.add(alpha, du);
   return result.iterations;

@@ -46,6 +46,15 @@ Equilibrium<dim>::start_tangent()
 
 template <int dim>
 void
+Equilibrium<dim>::finish_tangent()
+{
+  add_artificial_mass(newton_matrix);
+  newton_matrix.compress(dealii::VectorOperation::add);
+  eliminate_prescribed(newton_matrix);
+}
+
+template <int dim>
+void
 Equilibrium<dim>::tangent_without_contact(Matrix &K_0)
 {
   couple(std::vector<bool>(contact.points().size(), true));
@@ -62,9 +71,7 @@ Equilibrium<dim>::tangent_with_contact(const Matrix                             
   newton_matrix = 0.;
   newton_matrix.add(1., K_0);
   contact.jump_operator().add_stiffness(D, newton_matrix);
-  add_artificial_mass(newton_matrix);
-  newton_matrix.compress(dealii::VectorOperation::add);
-  eliminate_prescribed(newton_matrix);
+  finish_tangent();
   return newton_matrix;
 }
 
@@ -84,9 +91,7 @@ Equilibrium<dim>::tangent()
       newton_matrix.compress(dealii::VectorOperation::add);
       newton_matrix *= inertia.contact_weight;
     }
-  add_artificial_mass(newton_matrix);
-  newton_matrix.compress(dealii::VectorOperation::add);
-  eliminate_prescribed(newton_matrix);
+  finish_tangent();
   return newton_matrix;
 }
 
@@ -98,9 +103,7 @@ Equilibrium<dim>::condensation(const bool only_closed)
   couple(contact.stiff_points(true));
   start_tangent();
   contact.jump_operator().add_stiffness(glued, newton_matrix);
-  add_artificial_mass(newton_matrix);
-  newton_matrix.compress(dealii::VectorOperation::add);
-  eliminate_prescribed(newton_matrix);
+  finish_tangent();
 
   // Prescribed unknowns may belong to any process: a ghosted vector tells them.
   Vector is_prescribed(space.owned(), space.grid.communicator());

@@ -26,7 +26,6 @@ constexpr double       overshoot        = 0.5;
 constexpr double       lost             = 0.5;
 constexpr double       search_reduction = 0.1;
 constexpr unsigned int max_trials       = 30;
-constexpr double       surely_open      = 1e-6; // gap, in cells
 } // namespace
 
 /** Forces on the coordinates, and what resists them, after a motion q. */
@@ -227,7 +226,7 @@ FreeBodies<dim>::Balance::find_near(const Coordinates &q)
   for (Range &range : ranges)
     {
       const auto &coordinates = free.coordinates_of_pair[range.pair];
-      double      approach    = surely_open * free.cell_size;
+      double      approach    = ContactLaws<dim>::surely_open * free.cell_size;
       for (unsigned int k = 0; k < coordinates.size(); ++k)
         approach += std::abs(q[coordinates[k]]) * range.fastest[k];
       const auto end_of_near

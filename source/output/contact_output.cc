@@ -1,6 +1,7 @@
 #include <scree/mechanics/boundary_terms.h>
 #include <scree/output/column_names.h>
 #include <scree/output/contact_output.h>
+#include <scree/output/csv_table.h>
 #include <scree/output/patch_output.h>
 #include <scree/output/vtu_files.h>
 #include <scree/state/gather.h>
@@ -10,7 +11,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -96,17 +96,6 @@ columns(const ContactPoints<dim> &contact, const CellMeans<dim> &means, const un
   *next++                    = pressure;
   append(tau);
   return values;
-}
-
-/** Adds a number as "%.12g" shows it. */
-void
-add_number(const double value, std::string &text)
-{
-  std::array<char, 32> digits;
-  const auto           end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                           std::chars_format::general, 12)
-                     .ptr;
-  text.append(digits.data(), end);
 }
 } // namespace
 
@@ -269,7 +258,7 @@ write_contact_csv(const ContactPoints<dim> &contact, const MPI_Comm communicator
       {
         line = contact.pairs()[static_cast<unsigned int>(row[0])].name;
         for (unsigned int c = 1; c < row.size(); ++c)
-          add_number(row[c], line += ',');
+          (line += ',') += CsvTable::word(row[c]);
         file << (line += '\n');
       }
   });

@@ -5,12 +5,12 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <iomanip>
-#include <sstream>
 #include <string_view>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -107,9 +107,11 @@ CsvTable::append(const std::vector<double> &values)
 std::string
 CsvTable::word(const double value)
 {
-  std::ostringstream text;
-  text << std::setprecision(12) << value;
-  return text.str();
+  std::array<char, 32> digits;
+  const auto           end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                           std::chars_format::general, 12)
+                     .ptr;
+  return {digits.data(), end};
 }
 
 void

@@ -65,9 +65,11 @@ public:
                                           const std::vector<dealii::Tensor<1, dim>> &jumps,
                                           const ContactHistory<dim>                 &history) const;
 
+  /** Gaps beyond it are open but for multipliers and laws with b(0) > 0 [cells]. */
+  static constexpr double surely_open = 1e-6;
+
   /**
-   * The numbers of the points that may not be open, in ascending order; g > 1e-6 h without a
-   * multiplier, under a law with b(0) = 0, is open.
+   * The numbers of the points that may not be open, in ascending order: without those surely_open.
    *
    * @param jumps of all points
    */
@@ -89,8 +91,6 @@ public:
 private:
   /** The law that acts between a pair now. */
   const ContactLaw &acting_law(const unsigned int pair) const;
-  /** Whether b(0) > 0. */
-  bool has_bound_without_pressure(const unsigned int pair) const;
 
   std::vector<ContactPair> of_pairs;
   std::vector<double>      pair_allowances; //!< while overlap is resolved

@@ -65,19 +65,23 @@ private:
   /** Whether a point bears traction as a spring whatever its gap. */
   bool is_spring(const unsigned int i) const
   {
-    return motions[i].is_glued;
+    return contact.points()[i].is_glued;
   }
   /** f of a point. */
   double friction_secant(const unsigned int i, const double bound) const;
   /** Whether it bears none. */
   bool is_idle(const unsigned int i) const;
+  /** Whether it has a slack: neither of these. */
+  bool has_slack(const unsigned int i) const
+  {
+    return !is_spring(i) && !is_idle(i);
+  }
 
   ContactPoints<dim>             &contact;
   const ContactHistory<dim>      &history;
   const MPI_Comm                  communicator;
   std::vector<unsigned int>       all_points;
   double                          area = 0.; //!< of the surface, of all processes
-  std::vector<ContactMotion<dim>> motions;
   std::vector<TrialTraction<dim>> trials;
   std::vector<double>             gap, pressure, slack;
   std::vector<double>             constant, pressure_step, slack_step; //!< of the last tangent()

@@ -107,8 +107,7 @@ public:
   /** E at the last residual(), blocks of dim x dim. */
   std::vector<double> tangent_changes() const;
 
-  /** Whether K is symmetric positive definite at the u of the last residual(). */
-  bool is_symmetric() const;
+  bool is_symmetric() const; //!< and positive definite: K at the u of the last residual()
   bool is_symmetric_without_contact() const; //!< the same of K_0
   /**
    * Shortens the increment `du` of the last residual() such that no body that nothing holds moves
@@ -201,7 +200,8 @@ private:
   void set_zero_on_prescribed(Vector &r) const;
   /** Gives K entries for these contact points, and those near, if it lacks some (collective). */
   void couple(const std::vector<bool> &points);
-  void start_tangent(); //!< K without contact and artificial mass
+  void start_tangent();  //!< K without contact and artificial mass
+  void finish_tangent(); //!< with that mass, without what is prescribed
   void add_artificial_mass(Matrix &matrix) const;
   void eliminate_prescribed(Matrix &matrix) const;
   void reactions(Vector &result) const;
