@@ -11,6 +11,9 @@ ExactDistances<dim>::ExactDistances(const std::vector<Body<dim>> &bodies, const 
     : bodies(bodies)
     , step(1e-6 * size)
 {
+  for (const Body<dim> &body : bodies)
+    is_slope_1.push_back(body.shape && body.shape->is_distance()
+                         && body.shape->exact_gradient(dealii::Point<dim>(), step).has_value());
 }
 
 template <int dim>
@@ -18,8 +21,8 @@ bool
 ExactDistances<dim>::is_known(const unsigned int body, const dealii::Point<dim> &x) const
 {
   const auto &shape = bodies[body].shape;
-  if (!shape)
-    return false;
+  if (!shape || is_slope_1[body])
+    return shape != nullptr;
   // Off the kinks, which may lie on grid lines.
   constexpr double   aside[] = {137., 261., 183.};
   dealii::Point<dim> beside  = initial_position(bodies[body], x);

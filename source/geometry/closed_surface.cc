@@ -2,10 +2,10 @@
 #include <scree/base/log.h>
 #include <scree/geometry/closed_surface.h>
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_halfedge_graph_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -16,6 +16,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <cmath>
 #include <map>
@@ -28,10 +29,14 @@ namespace
 {
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-using Kernel    = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh      = CGAL::Surface_mesh<Kernel::Point_3>;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-using FaceTree  = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
+
+// Distances need no exact predicates, which cost ten times as much where two facets are nearest.
+using DoubleKernel = CGAL::Simple_cartesian<double>;
+using Triangles    = std::vector<DoubleKernel::Triangle_3>;
+using Primitive    = CGAL::AABB_triangle_primitive<DoubleKernel, Triangles::const_iterator>;
+using DistanceTree = CGAL::AABB_tree<CGAL::AABB_traits<DoubleKernel, Primitive>>;
 
 /** "facet 17 at (0.5, 1, 2)", by the middle of its corners. */
 std::string
@@ -123,15 +128,34 @@ struct ClosedSurface::Tree
 {
   explicit Tree(Mesh mesh_of_surface)
       : mesh(std::move(mesh_of_surface))
-      , faces(CGAL::faces(mesh).first, CGAL::faces(mesh).second, mesh)
-      , side(faces)
+      , side(mesh)
   {
-    faces.accelerate_distance_queries();
+    for (const Mesh::Face_index face : mesh.faces())
+      {
+        faces.push_back(face);
+        std::vector<DoubleKernel::Point_3> corners;
+        for (const Mesh::Vertex_index vertex :
+             CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+          {
+            const Kernel::Point_3 &x = mesh.point(vertex);
+            corners.emplace_back(x[0], x[1], x[2]);
+          }
+        triangles.emplace_back(corners[0], corners[1], corners[2]);
+      }
+    distances.insert(triangles.cbegin(), triangles.cend());
+    distances.accelerate_distance_queries();
+  }
+
+  bool contains(const Point<3> &x) const
+  {
+    return side(Kernel::Point_3(x[0], x[1], x[2])) == CGAL::ON_BOUNDED_SIDE;
   }
 
   Mesh                                      mesh;
-  FaceTree                                  faces;
   CGAL::Side_of_triangle_mesh<Mesh, Kernel> side;
+  std::vector<Mesh::Face_index>             faces;
+  Triangles                                 triangles; //!< of these faces
+  DistanceTree                              distances;
 };
 
 ClosedSurface::ClosedSurface(const TriangleSoup &soup, const std::string &name)
@@ -150,24 +174,25 @@ ClosedSurface::~ClosedSurface() = default;
 double
 ClosedSurface::signed_distance(const Point<3> &x) const
 {
-  const Kernel::Point_3 point(x[0], x[1], x[2]);
-  const double          distance = std::sqrt(tree->faces.squared_distance(point));
-  return tree->side(point) == CGAL::ON_BOUNDED_SIDE ? -distance : distance;
+  const double distance
+    = std::sqrt(tree->distances.squared_distance(DoubleKernel::Point_3(x[0], x[1], x[2])));
+  return tree->contains(x) ? -distance : distance;
 }
 
 Tensor<1, 3>
 ClosedSurface::gradient(const Point<3> &x, const double near) const
 {
-  const Kernel::Point_3 point(x[0], x[1], x[2]);
-  const auto [foot, face]    = tree->faces.closest_point_and_primitive(point);
-  Kernel::Vector_3 direction = point - foot;
-  if (direction.squared_length() < near * near)
-    direction = PMP::compute_face_normal(face, tree->mesh);
-  else if (tree->side(point) == CGAL::ON_BOUNDED_SIDE)
-    direction = -direction;
-  Tensor<1, 3> result;
-  for (unsigned int d = 0; d < 3; ++d)
-    result[d] = direction[d];
+  const auto [foot, triangle]
+    = tree->distances.closest_point_and_primitive(DoubleKernel::Point_3(x[0], x[1], x[2]));
+  Tensor<1, 3> result = x - Point<3>(foot[0], foot[1], foot[2]);
+  if (result.norm() < near)
+    {
+      const auto             face   = tree->faces[triangle - tree->triangles.cbegin()];
+      const Kernel::Vector_3 normal = PMP::compute_face_normal(face, tree->mesh);
+      result                        = Tensor<1, 3>({normal[0], normal[1], normal[2]});
+    }
+  else if (tree->contains(x))
+    result *= -1.;
   return result / result.norm();
 }
 

@@ -17,10 +17,27 @@ MovedShape<dim>::MovedShape(std::shared_ptr<const Shape<dim>> shape, const Tenso
 }
 
 template <int dim>
+Point<dim>
+MovedShape<dim>::unmoved(const Point<dim> &x) const
+{
+  return centre + transpose(rotation) * (x - translation - centre);
+}
+
+template <int dim>
 double
 MovedShape<dim>::signed_distance(const Point<dim> &x) const
 {
-  return shape->signed_distance(centre + transpose(rotation) * (x - translation - centre));
+  return shape->signed_distance(unmoved(x));
+}
+
+template <int dim>
+std::optional<Tensor<1, dim>>
+MovedShape<dim>::exact_gradient(const Point<dim> &x, const double near) const
+{
+  const auto gradient = shape->exact_gradient(unmoved(x), near);
+  if (!gradient)
+    return {};
+  return rotation * *gradient;
 }
 
 template <int dim>
@@ -69,10 +86,10 @@ MovedShape<dim>::append_pieces(const BoundingBox<dim>        &box,
 {
   std::vector<Point<dim>> corners;
   for (unsigned int v = 0; v < (1u << dim); ++v)
-    corners.push_back(centre + transpose(rotation) * (box.vertex(v) - translation - centre));
-  std::vector<SmoothPiece<dim>> unmoved;
-  shape->append_pieces(BoundingBox<dim>(corners), unmoved);
-  for (const auto &piece : unmoved)
+    corners.push_back(unmoved(box.vertex(v)));
+  std::vector<SmoothPiece<dim>> before;
+  shape->append_pieces(BoundingBox<dim>(corners), before);
+  for (const auto &piece : before)
     pieces.push_back(piece.moved(rotation, centre, translation));
 }
 

@@ -3,6 +3,7 @@
 
 #include <scree/base/exceptions.h>
 #include <scree/geometry/level_set_from_shape.h>
+#include <scree/geometry/moved_shape.h>
 #include <scree/geometry/surface_shape.h>
 #include <scree/level_set/binary_field.h>
 #include <scree/parameters/file.h>
@@ -289,6 +290,33 @@ TEST(ClosedSurface, KnowsDistancesInAnyOrientation)
   const auto shape = std::make_shared<SurfaceShape>(std::make_shared<ClosedSurface>(soup, "a.stl"));
   EXPECT_NEAR(volume_below(make_lattice<3>(shape, frame, 0.2), 0.), surface.volume(),
               5e-3 * surface.volume());
+}
+
+// Out of the surface, and turned with it.
+TEST(ClosedSurface, GradientsAreThoseOfDistances)
+{
+  const auto          surface = std::make_shared<ClosedSurface>(sphere(3), "sphere.stl");
+  const MovedShape<3> shape(std::make_shared<SurfaceShape>(surface),
+                            rotation_matrix<3>(70., {1, 2, 3}), Point<3>(0.1, 0.2, 0.3),
+                            Tensor<1, 3>({4, 5, 6}));
+  const double        step   = 1e-6;
+  const Point<3>      middle = shape.bounding_box().center();
+  for (unsigned int i = 1; i < 200; ++i)
+    {
+      const Point<3> x
+        = middle + Tensor<1, 3>({std::sin(7. * i), std::sin(11. * i), std::sin(13. * i)});
+      const auto gradient = shape.exact_gradient(x, 1e-9);
+      ASSERT_TRUE(gradient);
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          Point<3> before = x, after = x;
+          before[d] -= step;
+          after[d] += step;
+          EXPECT_NEAR((*gradient)[d],
+                      (shape.signed_distance(after) - shape.signed_distance(before)) / (2. * step),
+                      1e-4);
+        }
+    }
 }
 
 TEST(ClosedSurface, SectionsAreOutlines)

@@ -50,6 +50,7 @@ private:
   dealii::Tensor<1, dim> slope(const Shape<dim> &shape, const dealii::Point<dim> &X) const;
 
   const std::vector<Body<dim>> &bodies;
-  double                        step; //!< of differences [L]
+  double                        step;       //!< of differences [L]
+  std::vector<bool>             is_slope_1; //!< everywhere, of the shapes
 };
 } // namespace scree

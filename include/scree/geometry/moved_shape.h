@@ -14,6 +14,9 @@ public:
 
   double signed_distance(const dealii::Point<dim> &x) const override;
 
+  std::optional<dealii::Tensor<1, dim>> exact_gradient(const dealii::Point<dim> &x,
+                                                       const double near) const override;
+
   bool is_distance() const override;
 
   bool is_claimed_distance() const override;
@@ -27,6 +30,9 @@ public:
                      std::vector<SmoothPiece<dim>>  &pieces) const override;
 
 private:
+  /** Where x is before the motion. */
+  dealii::Point<dim> unmoved(const dealii::Point<dim> &x) const;
+
   std::shared_ptr<const Shape<dim>> shape;
   dealii::Tensor<2, dim>            rotation;
   dealii::Point<dim>                centre;
