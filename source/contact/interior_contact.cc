@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace scree
 {
 namespace
 {
 // The constants that interior_contact.h documents.
+constexpr double reach           = 1.; // cells
 constexpr double pressure_factor = 0.3;
 constexpr double least_length    = 0.1;  // cells
 constexpr double sticking_slide  = 1e-3; // cells
@@ -28,41 +28,94 @@ InteriorContact<dim>::InteriorContact(ContactPoints<dim>        &contact,
     : contact(contact)
     , history(history)
     , communicator(communicator)
-    , all_points(contact.points().size())
-    , constant(all_points.size())
-    , pressure_step(all_points.size())
-    , slack_step(all_points.size())
 {
-  std::iota(all_points.begin(), all_points.end(), 0u);
+  const std::vector<unsigned int> places    = add_near();
+  double                          stiffness = 0.; // integral of E/L
+  for (unsigned int k = 0; k < numbers.size(); ++k)
+    {
+      const ContactPoint<dim> &point = contact.points()[numbers[k]];
+      overlap                        = std::max({overlap, -gap[k], least_length * point.cell_size});
+      stiffness += point.weight * contact.modulus(point.pair) / lengths[point.pair];
+    }
+  overlap   = dealii::Utilities::MPI::max(overlap, communicator);
+  stiffness = dealii::Utilities::MPI::sum(stiffness, communicator);
+  start(places, area > 0. ? pressure_factor * overlap * overlap * stiffness / area : 0.);
+}
+
+template <int dim>
+std::vector<unsigned int>
+InteriorContact<dim>::add_near()
+{
+  const std::vector<bool>   is_near = contact.points_within(reach);
+  std::vector<unsigned int> grown, added;
+  std::vector<double>       grown_pressure, grown_slack;
+  double                    weights = 0.;
+  for (unsigned int i = 0, k = 0; i < is_near.size(); ++i)
+    {
+      const bool was_taken = k < numbers.size() && numbers[k] == i;
+      if (!was_taken && !is_near[i] && !is_spring(i))
+        continue;
+      if (!was_taken)
+        added.push_back(grown.size());
+      grown.push_back(i);
+      grown_pressure.push_back(was_taken ? pressure[k] : 0.);
+      grown_slack.push_back(was_taken ? slack[k] : 0.);
+      weights += contact.points()[i].weight;
+      k += was_taken;
+    }
+  area     = dealii::Utilities::MPI::sum(weights, communicator);
+  numbers  = std::move(grown);
+  pressure = std::move(grown_pressure);
+  slack    = std::move(grown_slack);
+  constant.resize(numbers.size());
+  pressure_step.resize(numbers.size());
+  slack_step.resize(numbers.size());
   look();
-  double              overlap = 0.;
-  std::vector<double> sums    = {0., 0.}; // of weights, of w E/L
-  for (const unsigned int i : all_points)
+  return added;
+}
+
+template <int dim>
+void
+InteriorContact<dim>::start(const std::vector<unsigned int> &places, const double mu)
+{
+  for (const unsigned int k : places)
     {
-      const ContactPoint<dim> &point = contact.points()[i];
-      overlap                        = std::max({overlap, -gap[i], least_length * point.cell_size});
-      sums[0] += point.weight;
-      sums[1] += point.weight * contact.modulus(point.pair) / lengths[point.pair];
+      slack[k]    = std::max(gap[k], overlap);
+      pressure[k] = mu / slack[k];
     }
-  overlap = dealii::Utilities::MPI::max(overlap, communicator);
-  dealii::Utilities::MPI::sum(sums, communicator, sums);
-  area            = sums[0];
-  const double mu = area > 0. ? pressure_factor * overlap * overlap * sums[1] / area : 0.;
-  for (const unsigned int i : all_points)
-    {
-      slack.push_back(std::max(gap[i], overlap));
-      pressure.push_back(mu / slack[i]);
-    }
+}
+
+template <int dim>
+bool
+InteriorContact<dim>::take_near()
+{
+  const double                    mu     = complementarity();
+  const std::vector<unsigned int> places = add_near();
+  start(places, mu);
+  return dealii::Utilities::MPI::max(static_cast<unsigned int>(!places.empty()), communicator) != 0;
+}
+
+template <int dim>
+std::vector<bool>
+InteriorContact<dim>::taken() const
+{
+  std::vector<bool> result(contact.points().size(), false);
+  for (const unsigned int i : numbers)
+    result[i] = true;
+  return result;
 }
 
 template <int dim>
 void
 InteriorContact<dim>::look()
 {
-  auto motions = contact.laws().motions(contact.points(), all_points, contact.jumps(), history);
+  std::vector<dealii::Tensor<1, dim>> jumps;
+  for (const unsigned int i : numbers)
+    jumps.push_back(contact.jumps()[i]);
+  auto motions = contact.laws().motions(contact.points(), numbers, jumps, history);
   for (ContactMotion<dim> &motion : motions)
     motion.kept_closed_part = 1.;
-  trials = contact.enforcement().trial_tractions(all_points, motions, history);
+  trials = contact.enforcement().trial_tractions(numbers, motions, history);
   gap.clear();
   for (const TrialTraction<dim> &trial : trials)
     gap.push_back(-trial.pressure / trial.normal_stiffness);
@@ -80,9 +133,9 @@ double
 InteriorContact<dim>::complementarity() const
 {
   double sum = 0.;
-  for (const unsigned int i : all_points)
-    if (has_slack(i))
-      sum += contact.points()[i].weight * pressure[i] * slack[i];
+  for (unsigned int k = 0; k < numbers.size(); ++k)
+    if (has_slack(numbers[k]))
+      sum += contact.points()[numbers[k]].weight * pressure[k] * slack[k];
   sum = dealii::Utilities::MPI::sum(sum, communicator);
   return area > 0. ? sum / area : 0.;
 }
@@ -92,57 +145,61 @@ double
 InteriorContact<dim>::infeasibility() const
 {
   double largest = 0.;
-  for (const unsigned int i : all_points)
-    if (has_slack(i))
+  for (unsigned int k = 0; k < numbers.size(); ++k)
+    if (has_slack(numbers[k]))
       largest
-        = std::max(largest, std::abs(gap[i] + pressure[i] / trials[i].normal_stiffness - slack[i]));
+        = std::max(largest, std::abs(gap[k] + pressure[k] / trials[k].normal_stiffness - slack[k]));
   return dealii::Utilities::MPI::max(largest, communicator);
 }
 
 template <int dim>
 double
-InteriorContact<dim>::friction_secant(const unsigned int i, const double bound) const
+InteriorContact<dim>::friction_secant(const unsigned int k, const double bound) const
 {
-  const double least = sticking_slide * contact.points()[i].cell_size;
-  const double size  = std::max(trials[i].tau.norm(), trials[i].tangential_stiffness * least);
-  return is_spring(i) ? 1. : std::min(1., bound / size);
+  const double least = sticking_slide * contact.points()[numbers[k]].cell_size;
+  const double size  = std::max(trials[k].tau.norm(), trials[k].tangential_stiffness * least);
+  return is_spring(numbers[k]) ? 1. : std::min(1., bound / size);
 }
 
 template <int dim>
 typename InteriorContact<dim>::Tangent
 InteriorContact<dim>::tangent(const double mu)
 {
-  Tangent result;
-  result.forces.resize(all_points.size());
-  result.changes.resize(all_points.size());
-  result.stiffness.resize(all_points.size());
+  const std::size_t n_points = contact.points().size();
+  Tangent           result;
+  result.forces.resize(n_points);
+  result.changes.resize(n_points);
+  result.stiffness.resize(n_points);
   old_jumps         = contact.jumps();
-  const auto bounds = contact.laws().bounds(contact.points(), all_points, pressure);
-  for (const unsigned int i : all_points)
+  const auto bounds = contact.laws().bounds(contact.points(), numbers, pressure);
+  for (unsigned int k = 0; k < numbers.size(); ++k)
     {
+      const unsigned int i = numbers[k];
       if (is_idle(i))
         continue;
       const auto  &n   = contact.points()[i].normal;
       const double w   = contact.points()[i].weight;
       const auto   nn  = dealii::outer_product(n, n);
-      const auto  &t   = trials[i];
+      const auto  &t   = trials[k];
       const double eps = t.normal_stiffness;
-      const double f   = friction_secant(i, bounds[i].value);
-      double       p = t.pressure, k = eps;
-      constant[i] = 0.;
+      const double f   = friction_secant(k, bounds[k].value);
+      double       p = t.pressure, stiffness = eps;
+      constant[k] = 0.;
       if (!is_spring(i))
         {
-          p                         = pressure[i];
-          const double compliance   = slack[i] + p / eps;
-          const double inconsistent = gap[i] + p / eps - slack[i];
-          constant[i]               = (mu - p * slack[i] - p * inconsistent) / compliance;
-          k                         = p / compliance;
+          p                         = pressure[k];
+          const double compliance   = slack[k] + p / eps;
+          const double inconsistent = gap[k] + p / eps - slack[k];
+          constant[k]               = (mu - p * slack[k] - p * inconsistent) / compliance;
+          stiffness                 = p / compliance;
         }
       result.forces[i]  = w * (p * n + f * t.tau);
-      result.changes[i] = w * constant[i] * n;
-      if (k > negligible * eps)
+      result.changes[i] = w * constant[k] * n;
+      if (stiffness > negligible * eps)
         result.stiffness[i]
-          = w * (k * nn + f * t.tangential_stiffness * (dealii::unit_symmetric_tensor<dim>() - nn));
+          = w
+            * (stiffness * nn
+               + f * t.tangential_stiffness * (dealii::unit_symmetric_tensor<dim>() - nn));
     }
   return result;
 }
@@ -156,16 +213,24 @@ InteriorContact<dim>::step_length()
     if (change < 0.)
       alpha = std::min(alpha, -to_boundary * value / change);
   };
-  for (const unsigned int i : all_points)
+  const auto opening_of = [&](const unsigned int i) {
+    return contact.points()[i].normal * (contact.jumps()[i] - old_jumps[i]);
+  };
+  const std::vector<bool> is_taken = taken();
+  for (unsigned int i = 0; i < is_taken.size(); ++i)
+    if (!is_taken[i] && has_slack(i))
+      keep(contact.gap(i) - opening_of(i), opening_of(i));
+  for (unsigned int k = 0; k < numbers.size(); ++k)
     {
+      const unsigned int i = numbers[k];
       if (!has_slack(i))
         continue;
-      const double eps     = trials[i].normal_stiffness;
-      const double opening = contact.points()[i].normal * (contact.jumps()[i] - old_jumps[i]);
-      pressure_step[i]     = constant[i] - pressure[i] / (slack[i] + pressure[i] / eps) * opening;
-      slack_step[i]        = opening + (pressure[i] + pressure_step[i]) / eps + gap[i] - slack[i];
-      keep(pressure[i], pressure_step[i]);
-      keep(slack[i], slack_step[i]);
+      const double eps     = trials[k].normal_stiffness;
+      const double opening = opening_of(i);
+      pressure_step[k]     = constant[k] - pressure[k] / (slack[k] + pressure[k] / eps) * opening;
+      slack_step[k]        = opening + (pressure[k] + pressure_step[k]) / eps + gap[k] - slack[k];
+      keep(pressure[k], pressure_step[k]);
+      keep(slack[k], slack_step[k]);
     }
   return dealii::Utilities::MPI::min(alpha, communicator);
 }
@@ -174,10 +239,10 @@ template <int dim>
 void
 InteriorContact<dim>::advance(const double alpha)
 {
-  for (const unsigned int i : all_points)
+  for (unsigned int k = 0; k < numbers.size(); ++k)
     {
-      pressure[i] += alpha * pressure_step[i];
-      slack[i] += alpha * slack_step[i];
+      pressure[k] += alpha * pressure_step[k];
+      slack[k] += alpha * slack_step[k];
     }
   look();
 }

@@ -51,8 +51,7 @@ public:
   {
     equilibrium.residual(u_0, history, of_bodies);
     at_start = equilibrium.forces_without_inertia();
-    equilibrium.tangent_without_contact(stiffness);
-    change = 0.;
+    change   = 0.;
   }
 
   /** One step to p s = mu; the linear iterations. */
@@ -96,6 +95,7 @@ template <int dim>
 unsigned int
 LinearisedBodies<dim>::step(const double mu, const Vector<dim> &u_0, InteriorContact<dim> &interior)
 {
+  equilibrium.tangent_without_contact(interior.taken(), stiffness);
   auto tangent = interior.tangent(mu);
   stiffness.vmult(of_bodies, change);
   equilibrium.set_zero_where_not_sought(of_bodies);
@@ -121,6 +121,7 @@ LinearisedBodies<dim>::step(const double mu, const Vector<dim> &u_0, InteriorCon
   if (alpha < 1.)
     go(alpha);
   interior.advance(alpha);
+  interior.take_near();
   change.add(alpha, du);
   return result.iterations;
 }

@@ -10,22 +10,22 @@
 namespace scree
 {
 template <int dim>
-void
-Equilibrium<dim>::couple(const std::vector<bool> &points)
+bool
+Equilibrium<dim>::couple(const std::vector<bool> &points, const double near)
 {
-  constexpr double near         = 0.5; // cells: what may close in the next iterations
-  const MPI_Comm   communicator = space.grid.communicator();
-  unsigned int     is_missing   = coupled.size() != points.size() || newton_matrix.m() == 0;
+  const MPI_Comm communicator = space.grid.communicator();
+  unsigned int   is_missing   = coupled.size() != points.size() || newton_matrix.m() == 0;
   for (std::size_t p = 0; p < points.size() && !is_missing; ++p)
     is_missing = points[p] && !coupled[p];
   if (dealii::Utilities::MPI::max(is_missing, communicator) == 0)
-    return;
+    return false;
   const std::vector<bool> also = contact.points_within(near);
   coupled.resize(points.size(), false);
   for (std::size_t p = 0; p < points.size(); ++p)
     coupled[p] = coupled[p] || points[p] || also[p];
   contact.jump_operator().complete_groups(coupled);
   make_matrix(contact.jump_operator().couplings(coupled), newton_matrix);
+  return true;
 }
 
 template <int dim>
@@ -55,9 +55,11 @@ Equilibrium<dim>::finish_tangent()
 
 template <int dim>
 void
-Equilibrium<dim>::tangent_without_contact(Matrix &K_0)
+Equilibrium<dim>::tangent_without_contact(const std::vector<bool> &points, Matrix &K_0)
 {
-  couple(std::vector<bool>(contact.points().size(), true));
+  constexpr double near = 1.5; // cells: what may come near in the next iterations
+  if (!couple(points, near) && K_0.m() > 0)
+    return;
   start_tangent();
   newton_matrix.compress(dealii::VectorOperation::add);
   K_0.copy_from(newton_matrix);
@@ -166,7 +168,7 @@ Equilibrium<dim>::is_symmetric() const
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                     \
-  template void                            Equilibrium<dim>::tangent_without_contact(Matrix &);    \
+  template void Equilibrium<dim>::tangent_without_contact(const std::vector<bool> &, Matrix &);    \
   template const Equilibrium<dim>::Matrix &Equilibrium<dim>::tangent_with_contact(                 \
     const Matrix &, const std::vector<dealii::Tensor<2, dim>> &);                                  \
   template const Equilibrium<dim>::Matrix &Equilibrium<dim>::tangent();                            \

@@ -138,5 +138,33 @@ TEST(InteriorContact, StepsKeepPressuresPositive)
   interior.advance(alpha);
   EXPECT_GT(interior.complementarity(), 0.);
 }
+// Points that are farther than a cell are left out until bodies come near; no step goes past them.
+TEST(InteriorContact, TakesUpPointsThatComeNear)
+{
+  HalfPlanes   planes(0., "frictionless");
+  const double h = planes.model.grid.finest_size();
+  planes.move(Tensor({0., 2. * h}));
+  auto       interior = planes.interior();
+  const auto n_taken  = [&]() {
+    const auto taken = interior.taken();
+    return std::count(taken.begin(), taken.end(), true);
+  };
+  const auto move_back = [&](const double y) {
+    planes.contact.take_jumps(displacement<2>(
+      planes.model, planes.contact, [&](const unsigned int body, const dealii::Point<2> &) {
+        return body == 1 ? Tensor({0., y}) : Tensor();
+      }));
+  };
+  EXPECT_EQ(n_taken(), 0);
+  EXPECT_FALSE(interior.take_near());
+  interior.tangent(0.);
+  move_back(-2. * h);
+  EXPECT_NEAR(interior.step_length(), 0.99 * 0.5, 1e-6);
+  move_back(0.5 * h);
+  interior.advance(1.);
+  EXPECT_TRUE(interior.take_near());
+  EXPECT_EQ(n_taken(), static_cast<long>(planes.contact.points().size()));
+  EXPECT_FALSE(interior.take_near());
+}
 } // namespace
 } // namespace scree

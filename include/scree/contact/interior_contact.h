@@ -12,8 +12,8 @@ namespace scree
  *
  *     s = g + p/eps,    p s = mu,    p, s > 0,
  *
- * which for mu = 0 is p = eps <-g>. While mu > 0 all points press, so that a step knows what will
- * close. Newton's method of this system, dp and ds eliminated, is
+ * which for mu = 0 is p = eps <-g>. While mu > 0 all points within a cell press, so that a step
+ * knows what will close. Newton's method of this system, dp and ds eliminated, is
  *
  *     p + dp = p + c - k n.[[du]],    k = p/(s + p/eps),
  *     c = (mu - p s - p (g + p/eps - s))/(s + p/eps).
@@ -35,15 +35,23 @@ public:
   };
 
   /**
-   * Begins at the jumps of `contact`, with s = max(g, l) and p = mu_0/s, mu_0 = 0.3 l^2 times the
-   * mean of E/L over the points, l the largest overlap, at least a tenth of the largest cell.
+   * Begins at the jumps of `contact` with the points that are near there, s = max(g, l) and
+   * p = mu_0/s, mu_0 = 0.3 l^2 times the mean of E/L over the points, l the largest overlap, at
+   * least a tenth of the largest cell.
    *
    * @param lengths L of each pair: half the size of the smaller body [L]
    */
   InteriorContact(ContactPoints<dim> &contact, const ContactHistory<dim> &history,
                   const std::vector<double> &lengths, const MPI_Comm communicator);
 
-  /** Mean of p s over the surface [force/L per area] (collective). */
+  /** Takes up the points that have come within a cell, with s = max(g, l) and p = mu/s, mu the mean
+   * of p s; whether there are any (collective). */
+  bool take_near();
+
+  /** Those that were taken up. */
+  std::vector<bool> taken() const;
+
+  /** Mean of p s over their surface [force/L per area] (collective). */
   double complementarity() const;
 
   /** Largest |g + p/eps - s| [L] (collective). */
@@ -60,6 +68,11 @@ public:
   void advance(const double alpha);
 
 private:
+  /** Adds the points that are near, with s and p still to be set; their places among all that were
+   * taken. */
+  std::vector<unsigned int> add_near();
+  /** s = max(g, l) and p = mu/s at these places. */
+  void start(const std::vector<unsigned int> &places, const double mu);
   /** g, tau_t and stiffnesses at the jumps of `contact`. */
   void look();
   /** Whether a point bears traction as a spring whatever its gap. */
@@ -67,8 +80,8 @@ private:
   {
     return contact.points()[i].is_glued;
   }
-  /** f of a point. */
-  double friction_secant(const unsigned int i, const double bound) const;
+  /** f of the k-th point. */
+  double friction_secant(const unsigned int k, const double bound) const;
   /** Whether it bears none. */
   bool is_idle(const unsigned int i) const;
   /** Whether it has a slack: neither of these. */
@@ -77,14 +90,16 @@ private:
     return !is_spring(i) && !is_idle(i);
   }
 
-  ContactPoints<dim>             &contact;
-  const ContactHistory<dim>      &history;
-  const MPI_Comm                  communicator;
-  std::vector<unsigned int>       all_points;
-  double                          area = 0.; //!< of the surface, of all processes
+  ContactPoints<dim>        &contact;
+  const ContactHistory<dim> &history;
+  const MPI_Comm             communicator;
+  double                     overlap = 0.; //!< l
+  // What follows is of the points that were taken up.
+  std::vector<unsigned int>       numbers;   //!< rising
+  double                          area = 0.; //!< of all processes
   std::vector<TrialTraction<dim>> trials;
   std::vector<double>             gap, pressure, slack;
   std::vector<double>             constant, pressure_step, slack_step; //!< of the last tangent()
-  std::vector<dealii::Tensor<1, dim>> old_jumps;                       //!< at it
+  std::vector<dealii::Tensor<1, dim>> old_jumps;                       //!< of all points, at it
 };
 } // namespace scree

@@ -75,11 +75,9 @@ public:
 
   void set_inertia(Inertia<dim> of_step); //!< none by default
   bool has_inertia() const;
-
   void set_kinetic_energy(const double energy); //!< of what start_step(), resume(), accept() take
   /** r(u) of the last residual() without inertia and contact. */
   Vector forces_without_inertia() const;
-
   /** M^-1 times the contact forces there, of rigid bodies as in RigidMasses::write(). */
   Vector accelerations_by_contact(const Vector &u) const;
 
@@ -94,8 +92,9 @@ public:
 
   const Matrix &tangent(); //!< K at the last residual(), prescribed rows and columns eliminated
 
-  /** K at the last residual() without contact and artificial mass, with all rows and columns. */
-  void tangent_without_contact(Matrix &K_0);
+  /** K at the last residual() without contact and artificial mass, all rows and columns, with
+   * entries for these contact points; K_0 is left as it is if it has them. */
+  void tangent_without_contact(const std::vector<bool> &points, Matrix &K_0);
 
   /** K_0 + B^T D B with the artificial mass, prescribed rows and columns eliminated. */
   const Matrix &tangent_with_contact(const Matrix                              &K_0,
@@ -198,8 +197,9 @@ private:
   /** Takes FreeBodies::misplaced_moments() out of r. */
   void hold_moments(Vector &r);
   void set_zero_on_prescribed(Vector &r) const;
-  /** Gives K entries for these contact points, and those near, if it lacks some (collective). */
-  void couple(const std::vector<bool> &points);
+  /** Gives K entries for these contact points, and those within `near` cells, if it lacks some;
+   * whether it did (collective). */
+  bool couple(const std::vector<bool> &points, const double near = 0.5);
   void start_tangent();  //!< K without contact and artificial mass
   void finish_tangent(); //!< with that mass, without what is prescribed
   void add_artificial_mass(Matrix &matrix) const;
