@@ -1,5 +1,6 @@
 #include <scree/base/exceptions.h>
 #include <scree/contact/grid_node_contact.h>
+#include <scree/contact/node_gap.h>
 #include <scree/grid/cell_bodies.h>
 
 #include <deal.II/base/mpi.h>
@@ -231,46 +232,6 @@ normal_of(const NodeOfPair<dim> &node, std::array<double, 2> factors, const Node
   return factors[0] * node.gradient[0] - factors[1] * node.gradient[1];
 }
 
-/** The gap and the normal of a node where the bodies are expected at the end of a step. */
-template <int dim>
-void
-expect_motion(const ContactPair &pair, const std::vector<Body<dim>> &bodies,
-              const IncrementPrediction<dim> &prediction, ContactPoint<dim> &point)
-{
-  // Beyond this angle the node is at the end of a body, whose distance says nothing of its face.
-  constexpr double   smallest_cosine = 0.9;
-  constexpr unsigned degree          = 3;
-  const auto         value           = [&](const unsigned int b, const dealii::Point<dim> &x) {
-    return bodies[b].level_set.value(x, degree);
-  };
-  const auto gradient = [&](const unsigned int b, const bool is_after) {
-    dealii::Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const double sign : {-1., 1.})
-        {
-          dealii::Point<dim> y = point.position;
-          y[d] += sign * 0.5 * point.cell_size;
-          result[d] += sign / point.cell_size
-                       * value(b, is_after ? dealii::Point<dim>(y - prediction(b, y)) : y);
-        }
-    return result;
-  };
-  dealii::Tensor<1, dim> n = point.normal;
-  for (const auto &[b, sign] : {std::pair(pair.a, 1.), std::pair(pair.b, -1.)})
-    {
-      const dealii::Tensor<1, dim> before = gradient(b, false), after = gradient(b, true);
-      const double cosine = std::min(sign * before * point.normal, sign * after * point.normal);
-      if (cosine > smallest_cosine)
-        n += 0.5 * sign * (after - before);
-    }
-  n /= n.norm();
-  const auto moved  = [&](const unsigned int b) { return prediction(b, point.position); };
-  point.initial_gap = value(pair.a, point.position - moved(pair.a))
-                      + value(pair.b, point.position - moved(pair.b))
-                      - n * (moved(pair.b) - moved(pair.a));
-  point.normal = n;
-}
-
 /** The contact points of this process. */
 template <int dim>
 std::vector<ContactPoint<dim>>
@@ -285,6 +246,7 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
   factors.reserve(pairs.size());
   for (const ContactPair &pair : pairs)
     factors.push_back(factors_of_normals(pair, bodies, normal_of_nodes));
+  const NodeGaps<dim>            gaps(bodies, prediction);
   std::vector<ContactPoint<dim>> points;
   for (const auto &[key, node] : gathered<dim>(
          NodesInCells<dim>(space, level_set_nodes, bodies, pairs, normal_of_nodes).collect(),
@@ -302,14 +264,12 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
         x[d] += key[1 + d] * grid.finest_size();
       if (grid.locate(x).rank != rank)
         continue;
-      const double gap = bodies[pairs[number].a].level_set.value(x, 1)
-                         + bodies[pairs[number].b].level_set.value(x, 1);
-      const auto n = normal / normal.norm();
+      const double gap = gaps.at_start(pairs[number], x, node.cell_size);
+      const auto   n   = normal / normal.norm();
       points.push_back({number, x, n, area, gap, node.cell_size, n, gap});
       points.back().is_node = true;
       points.back().feet    = {{x, x}};
-      if (prediction)
-        expect_motion(pairs[number], bodies, prediction, points.back());
+      gaps.expect_motion(pairs[number], points.back());
     }
   return points;
 }

@@ -16,15 +16,9 @@ namespace scree
  *
  * where the second form leaves out the faces of the background box, n_I is the direction of
  * rho_a g^a_I - rho_b g^b_I, without densities by default: collinear for both bodies, from a to b.
- * The nodal area is |g^a_I - g^b_I|/2; areas of a flat contact add up to its area. The gap at the
- * start is phi_a + phi_b at the node, or zero without the test of early contact. The basis is of
+ * The nodal area is |g^a_I - g^b_I|/2; areas of a flat contact add up to its area. Gaps are
+ * those of NodeGaps, or zero without the test of early contact. The basis is of
  * degree 1: functions of degree 2 are negative in parts, and so would be areas. Collective.
- *
- * Where a prediction tells the increments d_b, gap and normal are those that the moved bodies have
- * at the node in the end, whatever material is there then: with phi'_b(x) = phi_b(x - d_b(x)),
- *
- *     n' = n + grad(phi'_a - phi_a - phi'_b + phi_b)/2, normalised,   g_0 = phi'_a + phi'_b -
- * n'.(d_b - d_a).
  *
  * @param prediction empty, or without the test of early contact: as at the start of the step
  * @param start_displacement see discretise_contact()
