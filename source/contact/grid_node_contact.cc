@@ -264,8 +264,8 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
         x[d] += key[1 + d] * grid.finest_size();
       if (grid.locate(x).rank != rank)
         continue;
-      const double gap = gaps.at_start(pairs[number], x, node.cell_size);
       const auto   n   = normal / normal.norm();
+      const double gap = gaps.at_start(pairs[number], x, node.cell_size);
       points.push_back({number, x, n, area, gap, node.cell_size, n, gap});
       points.back().is_node = true;
       points.back().feet    = {{x, x}};

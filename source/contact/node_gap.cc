@@ -27,7 +27,8 @@ differences(const Function &function, const dealii::Point<dim> &x, const double 
  *
  *     y <- y - psi grad psi/|grad psi|^2    from y = x.
  *
- * A node without a foot within two cells is its own.
+ * A node without a foot within two cells is its own, and so is one whose foot is where the surfaces
+ * do not face each other: |grad psi| is 2 between two faces, sqrt(2) beside an edge.
  */
 template <int dim, typename DistanceOfA, typename DistanceOfB>
 double
@@ -35,7 +36,7 @@ gap_at_foot(const DistanceOfA &phi_a, const DistanceOfB &phi_b, const dealii::Po
             const double cell_size)
 {
   constexpr unsigned int n_steps = 4;
-  constexpr double       reach = 2., smallest_slope = 0.2; // of psi; 2 between two faces
+  constexpr double       reach = 2., smallest_slope = 0.2, slope_of_faces = 1.7; // of psi
   const auto             psi = [&](const dealii::Point<dim> &y) { return phi_a(y) - phi_b(y); };
   dealii::Point<dim>     y   = x;
   for (unsigned int n = 0; n < n_steps; ++n)
@@ -48,6 +49,8 @@ gap_at_foot(const DistanceOfA &phi_a, const DistanceOfB &phi_b, const dealii::Po
       if ((y - x).norm() > reach * cell_size)
         return phi_a(x) + phi_b(x);
     }
+  if (dealii::Tensor<1, dim>(differences<dim>(psi, y, 0.5 * cell_size)).norm() < slope_of_faces)
+    y = x;
   return phi_a(y) + phi_b(y);
 }
 } // namespace
