@@ -265,7 +265,7 @@ contact_nodes(const DisplacementSpace<dim> &space, const LevelSetNodes<dim> &lev
       if (grid.locate(x).rank != rank)
         continue;
       const auto   n   = normal / normal.norm();
-      const double gap = gaps.at_start(pairs[number], x, node.cell_size);
+      const double gap = gaps.at_start(pairs[number], x, n, node.cell_size);
       points.push_back({number, x, n, area, gap, node.cell_size, n, gap});
       points.back().is_node = true;
       points.back().feet    = {{x, x}};

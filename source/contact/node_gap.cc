@@ -28,18 +28,19 @@ differences(const Function &function, const dealii::Point<dim> &x, const double 
  *     y <- y - psi grad psi/|grad psi|^2    from y = x.
  *
  * A node without a foot within two cells is its own, and so is one whose foot is where the surfaces
- * do not face each other: |grad psi| is 2 between two faces, sqrt(2) beside an edge.
+ * do not face each other along its normal: n . grad psi is 2 between two faces, sqrt(2) beside an
+ * edge, and negative where n is that of the far side of a thin body.
  */
 template <int dim, typename DistanceOfA, typename DistanceOfB>
 double
 gap_at_foot(const DistanceOfA &phi_a, const DistanceOfB &phi_b, const dealii::Point<dim> &x,
-            const double cell_size)
+            const dealii::Tensor<1, dim> &n, const double cell_size)
 {
   constexpr unsigned int n_steps = 4;
   constexpr double       reach = 2., smallest_slope = 0.2, slope_of_faces = 1.7; // of psi
   const auto             psi = [&](const dealii::Point<dim> &y) { return phi_a(y) - phi_b(y); };
   dealii::Point<dim>     y   = x;
-  for (unsigned int n = 0; n < n_steps; ++n)
+  for (unsigned int step_number = 0; step_number < n_steps; ++step_number)
     {
       const dealii::Tensor<1, dim> slope = differences<dim>(psi, y, 0.5 * cell_size);
       if (slope.norm() < smallest_slope)
@@ -49,7 +50,7 @@ gap_at_foot(const DistanceOfA &phi_a, const DistanceOfB &phi_b, const dealii::Po
       if ((y - x).norm() > reach * cell_size)
         return phi_a(x) + phi_b(x);
     }
-  if (dealii::Tensor<1, dim>(differences<dim>(psi, y, 0.5 * cell_size)).norm() < slope_of_faces)
+  if (n * dealii::Tensor<1, dim>(differences<dim>(psi, y, 0.5 * cell_size)) < slope_of_faces)
     y = x;
   return phi_a(y) + phi_b(y);
 }
@@ -83,10 +84,10 @@ NodeGaps<dim>::expected_strain(const unsigned int b, const dealii::Point<dim> &x
 template <int dim>
 double
 NodeGaps<dim>::at_start(const ContactPair &pair, const dealii::Point<dim> &x,
-                        const double cell_size) const
+                        const dealii::Tensor<1, dim> &n, const double cell_size) const
 {
   return gap_at_foot<dim>([&](const dealii::Point<dim> &y) { return distance(pair.a, y); },
-                          [&](const dealii::Point<dim> &y) { return distance(pair.b, y); }, x,
+                          [&](const dealii::Point<dim> &y) { return distance(pair.b, y); }, x, n,
                           cell_size);
 }
 
@@ -117,7 +118,8 @@ NodeGaps<dim>::expect_motion(const ContactPair &pair, ContactPoint<dim> &point) 
   n /= n.norm();
   point.initial_gap
     = gap_at_foot<dim>([&](const dealii::Point<dim> &y) { return moved_distance(pair.a, y); },
-                       [&](const dealii::Point<dim> &y) { return moved_distance(pair.b, y); }, x, h)
+                       [&](const dealii::Point<dim> &y) { return moved_distance(pair.b, y); }, x, n,
+                       h)
       - n * (prediction(pair.b, x) - prediction(pair.a, x));
   point.normal = n;
 }

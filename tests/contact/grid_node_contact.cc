@@ -273,6 +273,24 @@ TEST(GridNodeContact, GapsOfStretchedLevelSets)
     EXPECT_NEAR(point.initial_gap, 0., 1e-9);
 }
 
+// Nodes with the normal of the far side of a plate are no nearer than they are.
+TEST(GridNodeContact, GapsOfAThinPlate)
+{
+  const CutBodies<2> model(grid_text("-1, -1", "1, 1", "4, 4", 3) + degree_text(1)
+                           + bodies_text({{"plate", box_text("-2, -0.1", "2, 0")},
+                                          {"block", half_space_text("0, -0.001", "0, -1")}}));
+  GridNodeParameters of_volumes;
+  of_volumes.normal          = NodeNormal::volume_gradient;
+  unsigned int n_of_far_side = 0;
+  for (const auto &point : node_contact(model, of_volumes).points())
+    {
+      const bool is_of_far_side = point.normal[1] < 0.;
+      n_of_far_side += is_of_far_side;
+      EXPECT_NEAR(point.initial_gap, is_of_far_side ? 0.024 : -0.001, 1e-6);
+    }
+  EXPECT_GT(n_of_far_side, 20u);
+}
+
 // A rigid body moves nodes as if they were part of it.
 TEST(GridNodeContact, RigidBody)
 {

@@ -22,9 +22,9 @@ public:
   {
   }
 
-  /** The gap at the start of a step. */
+  /** The gap at the start of a step of a node with the normal n from a to b. */
   double at_start(const ContactPair &pair, const dealii::Point<dim> &x,
-                  const double cell_size) const;
+                  const dealii::Tensor<1, dim> &n, const double cell_size) const;
 
   /**
    * Gap and normal of a point as the moved bodies have them in the end, whatever material is at the
