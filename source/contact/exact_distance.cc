@@ -21,8 +21,10 @@ bool
 ExactDistances<dim>::is_known(const unsigned int body, const dealii::Point<dim> &x) const
 {
   const auto &shape = bodies[body].shape;
-  if (!shape || is_slope_1[body])
-    return shape != nullptr;
+  if (!shape)
+    return false;
+  if (is_slope_1[body])
+    return true;
   // Off the kinks, which may lie on grid lines.
   constexpr double   aside[] = {137., 261., 183.};
   dealii::Point<dim> beside  = initial_position(bodies[body], x);

@@ -29,7 +29,7 @@ InteriorContact<dim>::InteriorContact(ContactPoints<dim>        &contact,
     , history(history)
     , communicator(communicator)
 {
-  const std::vector<unsigned int> places    = add_near();
+  const std::vector<unsigned int> places    = take(taken_or_near());
   double                          stiffness = 0.; // integral of E/L
   for (unsigned int k = 0; k < numbers.size(); ++k)
     {
@@ -44,32 +44,39 @@ InteriorContact<dim>::InteriorContact(ContactPoints<dim>        &contact,
 
 template <int dim>
 std::vector<unsigned int>
-InteriorContact<dim>::add_near()
+InteriorContact<dim>::taken_or_near() const
 {
-  const std::vector<bool>   is_near = contact.points_within(reach);
-  std::vector<unsigned int> grown, added;
+  const std::vector<bool>   is_near = contact.points_within(reach), is_taken = taken();
+  std::vector<unsigned int> result;
+  for (unsigned int i = 0; i < is_near.size(); ++i)
+    if (is_taken[i] || is_near[i] || is_spring(i))
+      result.push_back(i);
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned int>
+InteriorContact<dim>::take(std::vector<unsigned int> &&grown)
+{
+  std::vector<unsigned int> added;
   std::vector<double>       grown_pressure, grown_slack;
   double                    weights = 0.;
-  for (unsigned int i = 0, k = 0; i < is_near.size(); ++i)
+  for (unsigned int place = 0, k = 0; place < grown.size(); ++place)
     {
-      const bool was_taken = k < numbers.size() && numbers[k] == i;
-      if (!was_taken && !is_near[i] && !is_spring(i))
-        continue;
+      const bool was_taken = k < numbers.size() && numbers[k] == grown[place];
       if (!was_taken)
-        added.push_back(grown.size());
-      grown.push_back(i);
+        added.push_back(place);
       grown_pressure.push_back(was_taken ? pressure[k] : 0.);
       grown_slack.push_back(was_taken ? slack[k] : 0.);
-      weights += contact.points()[i].weight;
+      weights += contact.points()[grown[place]].weight;
       k += was_taken;
     }
   area     = dealii::Utilities::MPI::sum(weights, communicator);
   numbers  = std::move(grown);
   pressure = std::move(grown_pressure);
   slack    = std::move(grown_slack);
-  constant.resize(numbers.size());
-  pressure_step.resize(numbers.size());
-  slack_step.resize(numbers.size());
+  constant.assign(numbers.size(), 0.);
+  pressure_step = slack_step = constant;
   look();
   return added;
 }
@@ -89,10 +96,13 @@ template <int dim>
 bool
 InteriorContact<dim>::take_near()
 {
-  const double                    mu     = complementarity();
-  const std::vector<unsigned int> places = add_near();
-  start(places, mu);
-  return dealii::Utilities::MPI::max(static_cast<unsigned int>(!places.empty()), communicator) != 0;
+  auto               grown = taken_or_near();
+  const unsigned int grows = grown.size() > numbers.size();
+  if (dealii::Utilities::MPI::max(grows, communicator) == 0)
+    return false;
+  const double mu = complementarity();
+  start(take(std::move(grown)), mu);
+  return true;
 }
 
 template <int dim>

@@ -32,7 +32,8 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// Distances need no exact predicates, which cost ten times as much where two facets are nearest.
+// Distances need no exact predicates, which fall back to rational numbers where two facets are
+// nearest.
 using DoubleKernel = CGAL::Simple_cartesian<double>;
 using Triangles    = std::vector<DoubleKernel::Triangle_3>;
 using Primitive    = CGAL::AABB_triangle_primitive<DoubleKernel, Triangles::const_iterator>;
@@ -132,7 +133,6 @@ struct ClosedSurface::Tree
   {
     for (const Mesh::Face_index face : mesh.faces())
       {
-        faces.push_back(face);
         std::vector<DoubleKernel::Point_3> corners;
         for (const Mesh::Vertex_index vertex :
              CGAL::vertices_around_face(mesh.halfedge(face), mesh))
@@ -153,8 +153,7 @@ struct ClosedSurface::Tree
 
   Mesh                                      mesh;
   CGAL::Side_of_triangle_mesh<Mesh, Kernel> side;
-  std::vector<Mesh::Face_index>             faces;
-  Triangles                                 triangles; //!< of these faces
+  Triangles                                 triangles; //!< of the faces, in their order
   DistanceTree                              distances;
 };
 
@@ -187,7 +186,7 @@ ClosedSurface::gradient(const Point<3> &x, const double near) const
   Tensor<1, 3> result = x - Point<3>(foot[0], foot[1], foot[2]);
   if (result.norm() < near)
     {
-      const auto             face   = tree->faces[triangle - tree->triangles.cbegin()];
+      const Mesh::Face_index face(triangle - tree->triangles.cbegin());
       const Kernel::Vector_3 normal = PMP::compute_face_normal(face, tree->mesh);
       result                        = Tensor<1, 3>({normal[0], normal[1], normal[2]});
     }

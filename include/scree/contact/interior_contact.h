@@ -68,9 +68,10 @@ public:
   void advance(const double alpha);
 
 private:
-  /** Adds the points that are near, with s and p still to be set; their places among all that were
-   * taken. */
-  std::vector<unsigned int> add_near();
+  /** The points that were taken up and those that are near, in ascending order. */
+  std::vector<unsigned int> taken_or_near() const;
+  /** Takes up those of `grown` that were not; their places in it, with s and p still to be set. */
+  std::vector<unsigned int> take(std::vector<unsigned int> &&grown);
   /** s = max(g, l) and p = mu/s at these places. */
   void start(const std::vector<unsigned int> &places, const double mu);
   /** g, tau_t and stiffnesses at the jumps of `contact`. */
